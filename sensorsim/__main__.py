@@ -1,0 +1,5 @@
+"""`python -m sensorsim`."""
+
+from sensorsim.cli import main
+
+main()
