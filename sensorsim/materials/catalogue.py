@@ -1,0 +1,101 @@
+"""The catalogue: every material by its code, the standard constructions, and the readings of doubtful words."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from sensorsim.errors import InputError
+from sensorsim.materials.code import MaterialWord, parse_word
+from sensorsim.materials.construction import Construction, construction_names, load_construction, read_substances
+from sensorsim.materials.entry import read_toml
+from sensorsim.materials.material import Material, WallType, read_material, wall_type
+from sensorsim.materials.readings import Reading, read_readings
+from sensorsim.resources import assets_folder
+
+_SUBSTANCES, _READINGS = "substances.toml", "readings.toml"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Catalogue:
+    """Materials by code, constructions by name, readings by code, notes by word."""
+
+    folder: Path
+    materials: Mapping[int, Material]
+    constructions: Mapping[str, Construction]
+    readings: Mapping[int, Reading]
+    word_notes: Mapping[str, str]
+
+    @property
+    def codes(self) -> Mapping[int, str]:
+        """Name of each code."""
+        return {code: material.name for code, material in self.materials.items()}
+
+    def resolve(self, code: int) -> tuple[int, str | None]:
+        """The code that `code` stands for, with the reason where it is a reading; InputError for an unknown code."""
+        if code in self.materials:
+            return code, None
+        if code in self.readings:
+            return self.readings[code].means, self.readings[code].reason
+        remedy = f"use one of the {len(self.materials)} codes there, or add an entry or a reading"
+        raise InputError(self.folder, "material code", code, "no such material", remedy)
+
+    def resolve_word(self, word: str) -> tuple[MaterialWord, str | None]:
+        """Word with a code of the catalogue, with the note that belongs to it; InputError as in `resolve`."""
+        parsed = parse_word(word)
+        code, note = self.resolve(parsed.code)
+        return MaterialWord(code=code, reflectance=parsed.reflectance), note or self.word_notes.get(word)
+
+    def material(self, code: int) -> Material:
+        """Material of a code; InputError for one that the catalogue lacks, a reading included (see `resolve`)."""
+        means, note = self.resolve(code)
+        if note is not None:
+            raise InputError(
+                self.folder, "material code", code, "not a material itself", f"resolve it: read as {means}"
+            )
+        return self.materials[code]
+
+    def wall_type(self, code: int, interior: str) -> WallType:
+        """Wall type of a code with the given interior condition; InputError where either is unknown."""
+        return wall_type(self.material(code), interior)
+
+
+def _read_materials(folder: Path) -> dict[int, Material]:
+    substances = read_substances(folder / _SUBSTANCES) if (folder / _SUBSTANCES).is_file() else {}
+    materials: dict[int, Material] = {}
+    for path in sorted(folder.glob("*.toml")):
+        if path.name in (_SUBSTANCES, _READINGS):
+            continue
+        whole = read_toml(path)
+        whole.refuse_unknown(("material",))
+        for entry in whole.entries("material", "material"):
+            material = read_material(entry, substances)
+            if material.code in materials:
+                first = materials[material.code]
+                problem = f"code given twice, first for {first.name} in {first.file}"
+                raise InputError(path, "material code", material.code, problem, "give one of them a free code")
+            materials[material.code] = material
+    return dict(sorted(materials.items()))
+
+
+def load_catalogue(folder: Path | None = None) -> Catalogue:
+    """Catalogue of a folder of TOML files; without one, the package's own, assets/materials.
+
+    Every file but substances.toml (layers that entries may name) and readings.toml (codes read as others) holds
+    [[material]] entries. A folder of one's own stands alone: copy the package's and edit. Raises InputError.
+    """
+    folder = assets_folder() / "materials" if folder is None else folder
+    if not folder.is_dir():
+        raise InputError("catalogue", "folder", str(folder), "no such folder", "name a folder of TOML files")
+    materials = _read_materials(folder)
+    if not materials:
+        raise InputError(folder, "material", None, "no materials", "add a TOML file with [[material]] entries")
+    has_readings = (folder / _READINGS).is_file()
+    readings, notes = read_readings(folder / _READINGS, materials) if has_readings else ({}, {})
+    return Catalogue(
+        folder=folder,
+        materials=MappingProxyType(materials),
+        constructions=MappingProxyType({name: load_construction(name) for name in construction_names()}),
+        readings=MappingProxyType(dict(readings)),
+        word_notes=MappingProxyType(dict(notes)),
+    )
