@@ -1,0 +1,144 @@
+"""From weather to environment: the time grid, the sun, the sky and the ground of a lead-in and its image day."""
+
+import math
+from dataclasses import dataclass
+from datetime import date, datetime, time, timedelta
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.constants import SECONDS_PER_DAY, SECONDS_PER_HOUR
+from sensorsim.environment.environment import Environment
+from sensorsim.environment.ground import ground_albedo
+from sensorsim.environment.humidity import vapour_pressure
+from sensorsim.environment.near_infrared import NearInfrared, near_infrared
+from sensorsim.environment.quadrants import circumsolar_share, quadrant_irradiance
+from sensorsim.environment.sun import Sunlight, SunPosition, clear_sunlight, sun_position, sunlight_under_cloud
+from sensorsim.environment.thermal_sky import sky_temperature
+from sensorsim.environment.weather import Weather, resample_weather
+from sensorsim.errors import InputError
+
+FloatArray = NDArray[np.float64]
+
+DEFAULT_VISIBILITY = 23_000.0  # [m] the standard clear rural atmosphere
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Light:
+    position: SunPosition
+    broadband: Sunlight
+    quadrant: FloatArray
+    near: NearInfrared
+
+
+def build_environment(
+    weather: Weather,
+    *,
+    image_day: date,
+    lead_in_days: float = 3.0,
+    step: float = 300.0,
+    visibility: float = DEFAULT_VISIBILITY,
+) -> Environment:
+    """Environment from `lead_in_days` before the image day to its last midnight.
+
+    Parameters
+    ----------
+    weather : covers the whole of it
+    image_day : local date, standard time
+    lead_in_days : [day] history before the image day, a whole number of steps
+    step : [s] a whole number of them makes a day
+    visibility : [m] meteorological range
+
+    Raises
+    ------
+    InputError : an image day or lead-in that the weather does not cover, a step that does not divide the day.
+    """
+    lead_in = _lead_in_steps(weather, lead_in_days, step)
+    image_start = datetime.combine(image_day, time(), weather.site.time_zone)
+    start = image_start - timedelta(seconds=lead_in * step)
+    _require_cover(weather, start, image_start)
+    grid: FloatArray = np.arange(lead_in + round(SECONDS_PER_DAY / step) + 1, dtype=np.float64) * step
+    series = resample_weather(weather, grid + (start - weather.start).total_seconds())
+    return _assemble(series, grid, start=start, image_start=image_start, step=step, visibility=visibility)
+
+
+def _assemble(
+    series: Weather, grid: FloatArray, *, start: datetime, image_start: datetime, step: float, visibility: float
+) -> Environment:
+    """Add sun, sky and ground to the weather on the grid [s since start]."""
+    local = np.datetime64(start.replace(tzinfo=None), "ms") + np.round(grid * 1000.0).astype("timedelta64[ms]")
+    utc = local - np.timedelta64(round(series.site.utc_offset * SECONDS_PER_HOUR * 1000.0), "ms")
+    light = _light(series, local, utc)
+    vapour = vapour_pressure(series.air_temperature, series.relative_humidity)
+    return Environment(
+        name=series.name,
+        site=series.site,
+        start=start,
+        image_start=image_start,
+        step=step,
+        time=grid,
+        air_temperature=series.air_temperature,
+        relative_humidity=series.relative_humidity,
+        vapour_pressure=vapour,
+        wind_speed=series.wind_speed,
+        wind_direction=series.wind_direction,
+        cloud_cover=series.cloud_cover,
+        precipitation=series.precipitation,
+        ground_state=series.ground_state,
+        ground_albedo=ground_albedo(series.ground_state),
+        visibility=visibility,
+        sun_direction=light.position.direction,
+        sun_elevation=light.position.elevation,
+        beam_irradiance=light.broadband.beam,
+        diffuse_irradiance=light.broadband.diffuse,
+        quadrant_irradiance=light.quadrant,
+        sky_temperature=sky_temperature(series.air_temperature, vapour, series.cloud_cover),
+        nir_beam=light.near.beam,
+        nir_quadrant=light.near.quadrant,
+    )
+
+
+def _light(series: Weather, local: NDArray[np.datetime64], utc: NDArray[np.datetime64]) -> _Light:
+    position = sun_position(series.site, utc)
+    clear = clear_sunlight(series.site, position, local)
+    cloudy = sunlight_under_cloud(clear, position.elevation, series.cloud_cover)
+    share = circumsolar_share(cloudy.beam, cloudy.extraterrestrial)
+    return _Light(
+        position=position,
+        broadband=cloudy,
+        quadrant=quadrant_irradiance(cloudy.diffuse, position.azimuth, share),
+        near=near_infrared(clear, cloudy, position, series.cloud_cover, share),
+    )
+
+
+def _lead_in_steps(weather: Weather, lead_in_days: float, step: float) -> int:
+    """Number of steps before the image day."""
+    remedy = "give a number of seconds that divides 86400, such as 300"
+    if not (math.isfinite(step) and 1.0 <= step <= SECONDS_PER_HOUR and _whole(SECONDS_PER_DAY / step)):
+        raise InputError(weather.file, "step", step, "does not divide the day, or is not within 1 s to 1 h", remedy)
+    if not (math.isfinite(lead_in_days) and lead_in_days >= 0.0 and _whole(lead_in_days * SECONDS_PER_DAY / step)):
+        raise InputError(weather.file, "lead_in_days", lead_in_days, "not a whole number of steps", "give whole days")
+    return round(lead_in_days * SECONDS_PER_DAY / step)
+
+
+def _whole(number: float) -> bool:
+    return abs(number - round(number)) < 1e-6
+
+
+def _require_cover(weather: Weather, start: datetime, image_start: datetime) -> None:
+    """Refuse an image day or a lead-in that the weather does not cover."""
+    end = image_start + timedelta(days=1)
+    last = weather.start + timedelta(seconds=float(weather.time[-1]))
+    day = image_start.date().isoformat()
+    if image_start < weather.start or end > last:
+        span = f"the file covers {weather.start.isoformat()} to {last.isoformat()}"
+        raise InputError(
+            weather.file, "image day", day, span, "choose a day that lies wholly within, or extend the file"
+        )
+    if start < weather.start:
+        most = math.floor((image_start - weather.start) / timedelta(days=1))
+        asked = (image_start - start) / timedelta(days=1)
+        problem = f"the file begins only {weather.start.isoformat()}"
+        raise InputError(
+            weather.file, "lead-in in days", asked, problem, f"ask for {most} at most, or extend the file back"
+        )
