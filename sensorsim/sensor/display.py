@@ -1,0 +1,128 @@
+"""From band radiance to the grey of the display: gain, level and polarity.
+
+The detector is linear: its signal is the band radiance x [W m-2 sr-1]. The operator's window is `span` wide with
+`level` in its middle:
+
+    grey = clip((x - (level - span / 2)) / span, 0, 1), or 1 - grey when black is hot
+    display code = floor(255 grey + 1/2)
+
+Gain is 1 / span. The clip is the display's own black and white, what lies outside the window is saturated there.
+`display_code` is the reference that the display shader is held to.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from sensorsim.errors import InputError, NumericsError
+from sensorsim.radiometry import BandTable, FloatArray
+
+Polarity = Literal["white-hot", "black-hot"]
+
+RELATIVE_SPAN_FLOOR = (
+    1e-3  # of the level: 60 mK at 290 K in 8-14 um, so that no automatic gain shows rounding as a scene
+)
+ABSOLUTE_SPAN_FLOOR = 1e-9  # [W m-2 sr-1]; for a frame of no radiance at all
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DisplaySettings:
+    """Polarity and window of the display; a level or span [W m-2 sr-1] of None is chosen for each frame.
+
+    Raises InputError for an unknown polarity, a level that is not finite, or a span that is not finite and above zero.
+    """
+
+    polarity: Polarity = "white-hot"
+    level: float | None = None
+    span: float | None = None
+
+    def __post_init__(self) -> None:
+        where = "display settings"
+        if self.polarity not in get_args(Polarity):
+            raise InputError(where, "polarity", self.polarity, "unknown", f"use {' or '.join(get_args(Polarity))}")
+        if self.level is not None and not math.isfinite(self.level):
+            raise InputError(where, "level", self.level, "not finite", "give a band radiance in W m-2 sr-1")
+        if self.span is not None and not (math.isfinite(self.span) and self.span > 0.0):
+            raise InputError(where, "span", self.span, "not finite and above zero", "give a width in W m-2 sr-1")
+
+    @property
+    def gain(self) -> float | None:
+        """Grey per band radiance [W-1 m2 sr], 1 / span, or None where the span is automatic."""
+        return None if self.span is None else 1.0 / self.span
+
+    @property
+    def is_automatic(self) -> bool:
+        """Whether level or span still has to be chosen from a frame."""
+        return self.level is None or self.span is None
+
+
+def auto_window(radiance: npt.ArrayLike, *, tail: float = 0.01) -> tuple[float, float]:
+    """Level and span [W m-2 sr-1] that leave the share `tail` of the pixels below the window and as many above it.
+
+    radiance: any shape, at least one pixel, finite. The span is never below `RELATIVE_SPAN_FLOOR` of the level nor
+    below `ABSOLUTE_SPAN_FLOOR`, so a frame of one radiance becomes middle grey.
+    Raises InputError for a tail outside [0, 0.5), NumericsError for a frame that is empty or not finite.
+    """
+    if not 0.0 <= tail < 0.5:
+        raise InputError("automatic window", "tail", tail, "outside [0, 0.5)", "give the share of pixels to saturate")
+    pixels = np.asarray(radiance, dtype=np.float64).ravel()
+    if pixels.size == 0 or not np.isfinite(pixels).all():
+        raise NumericsError(f"automatic window: {pixels.size} pixels, all of which must be finite")
+    low, high = (float(value) for value in np.quantile(pixels, (tail, 1.0 - tail)))
+    level = (low + high) / 2.0
+    return level, max(high - low, RELATIVE_SPAN_FLOOR * abs(level), ABSOLUTE_SPAN_FLOOR)
+
+
+def window_from_temperatures(table: BandTable, low: float, high: float) -> tuple[float, float]:
+    """Level and span [W m-2 sr-1] of the window between two blackbody temperatures [K].
+
+    Raises InputError where low is not below high, NumericsError outside the table.
+    """
+    if not low < high:
+        raise InputError(
+            "display window", "temperatures [K]", (low, high), "not increasing", "give the colder one first"
+        )
+    darkest, brightest = (float(value) for value in table.radiance_at((low, high)))
+    return (darkest + brightest) / 2.0, brightest - darkest
+
+
+def fix_window(settings: DisplaySettings, radiance: npt.ArrayLike, *, tail: float = 0.01) -> DisplaySettings:
+    """The same settings with an automatic level or span chosen by `auto_window` from this radiance [W m-2 sr-1]."""
+    if not settings.is_automatic:
+        return settings
+    level, span = auto_window(radiance, tail=tail)
+    return replace(
+        settings,
+        level=level if settings.level is None else settings.level,
+        span=span if settings.span is None else settings.span,
+    )
+
+
+def window_limits(settings: DisplaySettings) -> tuple[float, float]:
+    """Band radiances [W m-2 sr-1] at the two ends of a fixed window; InputError for an automatic or vanishing one."""
+    if settings.level is None or settings.span is None:
+        window = (settings.level, settings.span)
+        raise InputError("display settings", "level, span", window, "automatic", "choose them with fix_window first")
+    darkest, brightest = settings.level - settings.span / 2.0, settings.level + settings.span / 2.0
+    if not darkest < brightest:
+        problem = f"lost in the rounding of the level {settings.level:g}"
+        raise InputError("display settings", "span", settings.span, problem, "give a wider one")
+    return darkest, brightest
+
+
+def grey_level(radiance: npt.ArrayLike, settings: DisplaySettings) -> FloatArray:
+    """Grey in [0, 1] of band radiance [W m-2 sr-1], any shape; NumericsError where it is not finite."""
+    darkest, brightest = window_limits(settings)
+    signal = np.asarray(radiance, dtype=np.float64)
+    if not np.isfinite(signal).all():
+        raise NumericsError(f"display: {np.sum(~np.isfinite(signal))} of {signal.size} pixels are not finite")
+    grey = np.clip((signal - darkest) / (brightest - darkest), 0.0, 1.0)
+    return grey if settings.polarity == "white-hot" else 1.0 - grey
+
+
+def display_code(radiance: npt.ArrayLike, settings: DisplaySettings) -> npt.NDArray[np.uint8]:
+    """Display code 0 (black) to 255 (white) of band radiance [W m-2 sr-1]; errors of `grey_level`."""
+    return np.floor(255.0 * grey_level(radiance, settings) + 0.5).astype(np.uint8)

@@ -1,0 +1,45 @@
+"""What a sensor is to the rest of the package: its band, its mode, its field of view and its display."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+from sensorsim.errors import InputError
+from sensorsim.radiometry import SpectralBand
+from sensorsim.sensor.display import DisplaySettings
+
+Mode = Literal["emissive", "reflective"]
+
+WIDEST_FIELD_OF_VIEW = 170.0  # [deg]; a plane image grows with tan(half the field) and has no use beyond
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor:
+    """A passive imaging sensor.
+
+    mode: 'emissive' sees what surfaces emit and reflect of the thermal sky, 'reflective' sees reflected sunlight.
+    horizontal_field_of_view [deg]; size (width, height) [pixels]; source: where its numbers come from.
+    Raises InputError naming the entry that cannot be honoured.
+    """
+
+    name: str
+    title: str
+    mode: Mode
+    band: SpectralBand
+    horizontal_field_of_view: float
+    size: tuple[int, int] = (640, 480)
+    display: DisplaySettings = field(default_factory=DisplaySettings)
+    notes: str = ""
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        where = f"sensor {self.name!r}"
+        if self.mode not in get_args(Mode):
+            raise InputError(where, "mode", self.mode, "unknown", f"use {' or '.join(get_args(Mode))}")
+        angle = self.horizontal_field_of_view
+        if not (math.isfinite(angle) and 0.0 < angle < WIDEST_FIELD_OF_VIEW):
+            limits = f"outside (0, {WIDEST_FIELD_OF_VIEW:g}) deg"
+            raise InputError(where, "horizontal_field_of_view", angle, limits, "give the full angle in degrees")
+        if len(self.size) != 2 or any(type(pixels) is not int or pixels < 1 for pixels in self.size):
+            remedy = "give width and height in whole pixels, for example [640, 480]"
+            raise InputError(where, "size", self.size, "not two counts of at least 1", remedy)
