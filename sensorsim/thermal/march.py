@@ -1,0 +1,90 @@
+"""Surface temperature histories of one wall for many orientations and absorptances at once."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sensorsim.errors import NumericsError
+from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
+from sensorsim.thermal.kernel import Columns, Inside, Outside, advance
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class History:
+    """Temperatures of a wall at the recorded samples."""
+
+    sample: np.ndarray  # (r,) indices of the recorded samples
+    exterior: FloatArray  # (r, o, a) exterior surface temperature [K]
+    interior: FloatArray  # (r, o, a) interior surface temperature [K]
+    nodes: FloatArray | None  # (r, n, o, a) cell temperatures [K], where asked for
+    heat: FloatArray  # (2, o, a) heat that entered through the exterior and the interior face, first to last [J m-2]
+    stored: FloatArray  # (o, a) heat stored from the first sample to the last [J m-2]
+    grid: WallGrid
+
+
+def march(
+    layers: Sequence[LayerLike],
+    outside: Outside,
+    inside: Inside,
+    absorptances: FloatArray,
+    *,
+    step: float,
+    record: np.ndarray,
+    keep_nodes: bool = False,
+    grid: WallGrid | None = None,
+    start: FloatArray | None = None,
+) -> History:
+    """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
+
+    The start is linear between interior and exterior air, as in section 3.6.1 of [Report1978], unless cell
+    temperatures `start` (n,) [K] are given.
+    """
+    grid = build_grid(layers, step) if grid is None else grid
+    cells = factor(grid, step)
+    columns = _start(grid, outside, inside, absorptances, start)
+    shape = (outside.irradiance.shape[1], absorptances.size)
+    exterior = np.zeros((record.size, *shape))
+    interior = np.zeros_like(exterior)
+    nodes = np.zeros((record.size, grid.capacity.size, *shape)) if keep_nodes else None
+    before = grid.capacity @ columns.cells
+    sample = 0
+    for row, wanted in enumerate(record):
+        failures = advance(columns, cells, outside, inside, sample, int(wanted), step)
+        if failures or not np.all(np.isfinite(columns.faces)):
+            raise NumericsError(f"heat balance of a wall did not converge between samples {sample} and {int(wanted)}")
+        sample = int(wanted)
+        exterior[row] = columns.faces[0].reshape(shape)
+        interior[row] = columns.faces[1].reshape(shape)
+        if nodes is not None:
+            nodes[row] = columns.cells.reshape(-1, *shape)
+    return History(
+        sample=record,
+        exterior=exterior,
+        interior=interior,
+        nodes=nodes,
+        heat=columns.heat.reshape(2, *shape),
+        stored=(grid.capacity @ columns.cells - before).reshape(shape),
+        grid=grid,
+    )
+
+
+def _start(
+    grid: WallGrid, outside: Outside, inside: Inside, absorptances: FloatArray, start: FloatArray | None
+) -> Columns:
+    """Columns, orientation by orientation and absorptance by absorptance, at the first sample."""
+    count = outside.irradiance.shape[1] * absorptances.size
+    reach = np.concatenate([[0.0], np.cumsum(1.0 / np.maximum(grid.conductance, 1e-12))])
+    share = reach / reach[-1]
+    line = outside.air[0] + (inside.air[0] - outside.air[0]) * share
+    profile = line[1:-1] if start is None else start
+    faces = np.repeat(line[[0, -1], None], count, axis=1)
+    return Columns(
+        cells=np.repeat(profile[:, None], count, axis=1),
+        faces=faces,
+        films=np.full((2, count), 5.0),
+        heat=np.zeros((2, count)),
+        orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),
+        absorptance=np.tile(absorptances, outside.irradiance.shape[1]),
+    )
