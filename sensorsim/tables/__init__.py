@@ -1,0 +1,23 @@
+"""Coefficient matrix and lookup tables: histories solved ahead, fitted, and evaluated for any normal, wall and time."""
+
+from sensorsim.tables.bake import bake_tables
+from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
+from sensorsim.tables.lookup_table import LookupTable
+from sensorsim.tables.orientations import LAYOUTS, OrientationSet, orientation_set
+from sensorsim.tables.settings import PRESETS, BakeSettings, preset
+from sensorsim.tables.shade import evaluate_polynomial, surface_temperature
+
+__all__ = [
+    "LAYOUTS",
+    "PRESETS",
+    "BakeSettings",
+    "LookupTable",
+    "OrientationSet",
+    "ShadeTables",
+    "bake_tables",
+    "evaluate_polynomial",
+    "fit_polynomials",
+    "orientation_set",
+    "preset",
+    "surface_temperature",
+]

@@ -1,0 +1,93 @@
+"""Standard orientations: normals for which histories are solved, and where any other normal lies among them.
+
+A set is a triangulated sphere. A normal is interpolated from the corners of the spherical triangle that holds it:
+section 3.6.2 of [Report1978] takes the three closest, which jumps where the third changes; the triangle does not,
+because on an edge only the edge's two corners count. Weights are the normal's coordinates along the three corners,
+scaled to sum to one.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
+
+from sensorsim.errors import InputError
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+LAYOUTS = ("report10", "report26", "icosphere42", "icosphere162", "icosphere642", "icosphere2562")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OrientationSet:
+    """Normals on the unit sphere with their Delaunay triangles."""
+
+    name: str
+    normal: FloatArray  # (o, 3) unit
+    triangle: IntArray  # (t, 3) corners
+    inverse: FloatArray  # (t, 3, 3) rows give a direction's coordinates along the three corners
+
+    def locate(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Corners (m, 3) and weights (m, 3) of the triangles that hold unit normals (m, 3)."""
+        corner = np.zeros((normal.shape[0], 3), dtype=np.int64)
+        weight = np.zeros((normal.shape[0], 3))
+        for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):
+            coordinate = np.einsum("tij,mj->mti", self.inverse, normal[rows])
+            best = np.argmax(coordinate.min(axis=2), axis=1)
+            inside = np.maximum(coordinate[np.arange(rows.size), best], 0.0)
+            corner[rows] = self.triangle[best]
+            weight[rows] = inside / inside.sum(axis=1, keepdims=True)
+        return corner, weight
+
+
+@lru_cache(maxsize=8)
+def orientation_set(name: str) -> OrientationSet:
+    """The named set; `report26` are a cube's faces, edges and corners, `report10` eight azimuths, up and down."""
+    if name not in LAYOUTS:
+        raise InputError("bake settings", "orientations", name, "unknown layout", f"use one of {', '.join(LAYOUTS)}")
+    normal = _icosphere(int(name[9:])) if name.startswith("icosphere") else _report_set(int(name[6:]))
+    triangle = _outward(ConvexHull(normal).simplices.astype(np.int64), normal)
+    inverse = np.linalg.inv(np.swapaxes(normal[triangle], 1, 2))
+    return OrientationSet(name=name, normal=normal, triangle=triangle, inverse=inverse)
+
+
+def _report_set(count: int) -> FloatArray:
+    if count == 10:
+        azimuth = np.radians(np.arange(8) * 45.0)
+        walls = np.stack([np.sin(azimuth), np.cos(azimuth), np.zeros(8)], axis=1)
+        return np.vstack([walls, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
+    steps = np.array([-1.0, 0.0, 1.0])
+    cube = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    return _unit(cube[np.any(cube != 0.0, axis=1)])
+
+
+def _icosphere(count: int) -> FloatArray:
+    """Icosahedron with one vertex up, its triangles split into four until there are `count` vertices."""
+    ring = np.radians(np.arange(5) * 72.0)
+    low = np.arctan(0.5)
+    upper = np.stack([np.cos(low) * np.sin(ring), np.cos(low) * np.cos(ring), np.full(5, np.sin(low))], axis=1)
+    turned = ring + np.radians(36.0)
+    lower = np.stack([np.cos(low) * np.sin(turned), np.cos(low) * np.cos(turned), np.full(5, -np.sin(low))], axis=1)
+    normal = np.vstack([[[0.0, 0.0, 1.0]], upper, lower, [[0.0, 0.0, -1.0]]])
+    while normal.shape[0] < count:
+        triangle = ConvexHull(normal).simplices
+        edge = np.unique(np.sort(triangle[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
+        normal = np.vstack([normal, _unit(normal[edge].sum(axis=1))])
+    return normal
+
+
+def _outward(triangle: IntArray, normal: FloatArray) -> IntArray:
+    """Corners counter-clockwise seen from outside, triangles in a fixed order."""
+    corner = normal[triangle]
+    flipped = np.linalg.det(corner) < 0.0
+    triangle = np.where(flipped[:, None], triangle[:, ::-1], triangle)
+    first = np.argmin(triangle, axis=1)
+    turned = np.take_along_axis(triangle, (first[:, None] + np.arange(3)) % 3, axis=1)
+    return np.asarray(turned[np.lexsort(turned.T[::-1])], dtype=np.int64)
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    return np.asarray(vector / np.linalg.norm(vector, axis=-1, keepdims=True))

@@ -1,0 +1,66 @@
+"""What a bake may spend: the knobs of accuracy against time, with named presets."""
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from sensorsim.errors import InputError
+from sensorsim.tables.orientations import LAYOUTS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BakeSettings:
+    """How finely histories are solved and fitted."""
+
+    orientations: str = "icosphere162"  # layout of the standard orientations
+    reflectances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)  # solar reflectances that are solved
+    degree: int = 4  # of the polynomial in reflectance
+    step: float = 300.0  # [s]
+    slice_interval: float = 900.0  # [s] between the times that are kept
+    lead_in_days: float = 3.0  # before the image day
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be solved or fitted."""
+        for entry, broken, remedy in (
+            ("orientations", self.orientations not in LAYOUTS, f"use one of {', '.join(LAYOUTS)}"),
+            ("reflectances", _unusable(self.reflectances), "give different values between 0 and 1"),
+            (
+                "degree",
+                not 0 <= self.degree < len(self.reflectances),
+                "use 0 up to the number of reflectances less one",
+            ),
+            ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
+            ("slice_interval", _not_multiple(self.slice_interval, self.step), "use a multiple of the step"),
+            ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
+        ):
+            if broken:
+                raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All settings by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+def _unusable(reflectances: tuple[float, ...]) -> bool:
+    values = np.asarray(reflectances, dtype=np.float64)
+    inside = np.all(np.isfinite(values)) and np.all((values >= 0.0) & (values <= 1.0))
+    return values.size == 0 or not inside or np.unique(values).size != values.size
+
+
+def _not_multiple(interval: float, step: float) -> bool:
+    return not (step > 0 and interval > 0 and abs(interval / step - round(interval / step)) < 1e-9)
+
+
+PRESETS = {
+    "report": BakeSettings(orientations="report26"),  # the few orientations, five reflectances and quartic of 1978
+    "standard": BakeSettings(),
+    "reference": BakeSettings(orientations="icosphere642", step=60.0, lead_in_days=4.0),
+}
+
+
+def preset(name: str) -> BakeSettings:
+    """The named preset."""
+    if name not in PRESETS:
+        raise InputError("bake settings", "preset", name, "unknown preset", f"use one of {', '.join(PRESETS)}")
+    return PRESETS[name]
