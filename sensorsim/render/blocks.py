@@ -1,0 +1,39 @@
+"""The shaders' parameters, each block defined once: layout, GLSL text and meaning."""
+
+from sensorsim.gpu import Field, UniformBlock
+
+VIEW_FRAME = UniformBlock(
+    name="ViewFrame",
+    binding=0,
+    fields=(
+        Field("clip_from_camera", "mat4", "projection of positions relative to the camera, world axes"),
+        Field("camera_position", "vec3", "east, north, up of the scene's origin [m]"),
+        Field("view_corner", "vec3", "ray through the lower left corner of the picture"),
+        Field("view_right", "vec3", "along the width of the picture"),
+        Field("view_up", "vec3", "along the height of the picture"),
+    ),
+)
+
+ILLUMINATION = UniformBlock(
+    name="Illumination",
+    binding=1,
+    fields=(
+        Field("quadrant", "vec4", "irradiance of the horizontal from the N, E, S and W quarter of the sky [W m-2]"),
+        Field("sun_direction", "vec3", "towards the sun"),
+        Field("beam", "float", "irradiance normal to the sun [W m-2]"),
+        Field("sky_radiance", "float", "of the sky, mean over a horizontal surface's hemisphere [W m-2 sr-1]"),
+        Field("ground_radiance", "float", "of the ground plane [W m-2 sr-1]"),
+        Field("air_radiance", "float", "of an infinite path through the air [W m-2 sr-1]"),
+        Field("attenuation", "float", "of the air [m-1]"),
+    ),
+)
+
+DISPLAY = UniformBlock(
+    name="Display",
+    binding=2,
+    fields=(
+        Field("level", "float", "radiance of middle grey [W m-2 sr-1]"),
+        Field("span", "float", "radiance from black to white [W m-2 sr-1]"),
+        Field("black_hot", "float", "1 for black-hot polarity, 0 for white-hot"),
+    ),
+)

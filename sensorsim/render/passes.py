@@ -1,0 +1,80 @@
+"""The passes of a frame, each a program with what it draws: surfaces, background, display."""
+
+from collections.abc import Mapping
+
+import moderngl
+
+from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
+from sensorsim.gpu.mesh import MeshBuffers
+from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+
+TEXTURE_UNITS = {
+    "surface_table": 0,
+    "coefficient_table": 1,
+    "band_radiance_table": 2,
+    "sky_radiance_table": 3,
+    "radiance_picture": 4,
+}
+
+
+class Pass:
+    """A program and the vertices that it draws."""
+
+    def __init__(
+        self, ctx: moderngl.Context, vertex: str, fragment: str, *,
+        blocks: tuple[UniformBlock, ...], samplers: tuple[str, ...], generated: Mapping[str, str],
+        defines: Mapping[str, int] | None = None, mesh: MeshBuffers | None = None,
+    ) -> None:  # fmt: skip
+        self.program = build_program(
+            ctx, vertex=vertex, fragment=fragment, defines=defines, generated=generated, blocks=blocks,
+            samplers=samplers,
+        )  # fmt: skip
+        bind_samplers(self.program, {name: TEXTURE_UNITS[name] for name in samplers})
+        self.vertices = screen_triangle(ctx, self.program) if mesh is None else mesh.vertex_array(self.program)
+
+    def draw(self) -> None:
+        """Draw into the target in use."""
+        self.vertices.render()
+
+    def release(self) -> None:
+        """Give back the program and its vertex array."""
+        self.vertices.release()
+        self.program.release()
+
+
+def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+    """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
+    return Pass(
+        ctx,
+        "scene/surface.vert",
+        "scene/surface.frag",
+        blocks=(VIEW_FRAME, ILLUMINATION),
+        samplers=("surface_table", "coefficient_table", "band_radiance_table"),
+        generated={**generated, "constants": constants_glsl()},
+        defines={"EMISSIVE": int(emissive)},
+        mesh=mesh,
+    )
+
+
+def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass:
+    """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
+    return Pass(
+        ctx,
+        "common/screen.vert",
+        "scene/background.frag",
+        blocks=(VIEW_FRAME, ILLUMINATION),
+        samplers=("sky_radiance_table",),
+        generated=generated,
+    )
+
+
+def display_pass(ctx: moderngl.Context) -> Pass:
+    """Grey [0, 1] from band radiance."""
+    return Pass(
+        ctx,
+        "common/screen.vert",
+        "sensor/display.frag",
+        blocks=(DISPLAY,),
+        samplers=("radiance_picture",),
+        generated={},
+    )

@@ -1,0 +1,212 @@
+"""One frame as an ordered list of passes: surfaces, background, read-back, window, display."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Self
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.constants import PI
+from sensorsim.errors import NumericsError
+from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
+from sensorsim.radiometry import build_band_table
+from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
+from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
+from sensorsim.render.surface_table import surface_table
+from sensorsim.render.world import World
+from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
+from sensorsim.tables import LookupTable
+from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+
+_BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
+QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Picture:
+    """What one look yields: planes (height, width), row 0 at the top, and the display window they were shown with."""
+
+    planes: Mapping[str, NDArray[Any]]
+    display: DisplaySettings
+    time_of_day: float  # [s]
+    camera: Camera
+    illumination: Illumination
+
+
+class Renderer:
+    """Draws a world as one sensor sees it. Use as a context manager: it holds an OpenGL context."""
+
+    def __init__(
+        self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto"
+    ) -> None:
+        self.world = world
+        self.sensor = sensor
+        self.size = sensor.size if size is None else size
+        self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
+        self.ctx = create_context(backend)
+        self._build()
+
+    def __enter__(self) -> Self:
+        """The renderer itself."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Give back the context."""
+        self.release()
+
+    def release(self) -> None:
+        """Give back the OpenGL context with everything in it."""
+        self.ctx.release()
+
+    def render(
+        self, camera: Camera, time_of_day: float, *, display: DisplaySettings | None = None,
+        illumination: Illumination | None = None,
+    ) -> Picture:  # fmt: skip
+        """The picture from `camera` at a time of the image day [s].
+
+        Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature and, in
+        emissive bands, apparent_temperature [K]. `illumination` replaces the surroundings of the moment.
+        """
+        if illumination is None:
+            illumination = self.illuminate(time_of_day)
+        self._set_moment(time_of_day, illumination)
+        self._draw(camera)
+        planes = self._read()
+        settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
+        planes["display"] = self._display(settings)
+        return Picture(
+            planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
+        )
+
+    def illuminate(self, time_of_day: float) -> Illumination:
+        """Surroundings at a time of the image day [s], in the sensor's band."""
+        tables = self.world.tables
+        index, share = tables.slice_of(time_of_day)
+        ground = tables.ground_temperature[index : index + 2]
+        temperature = float(ground[0] + share * (ground[1] - ground[0]))
+        return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
+
+    def _build(self) -> None:
+        ctx, world = self.ctx, self.world
+        surfaces, mesh = world.scene.surfaces, world.scene.mesh
+        records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
+        coefficients = world.tables.coefficients[0]
+        band = self._band_lookup()
+        sky = LookupTable(
+            name="sky_radiance", quantity="Radiance", argument="Radian", minimum=0.0, maximum=PI / 2,
+            values=np.zeros(SKY_ENTRIES),
+        )  # fmt: skip
+        self._tables = {
+            "surface_table": float_table(ctx, "surface_table", records),
+            "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
+            "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
+            "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
+        }
+        generated = {
+            "coefficients": coefficient_glsl(coefficients.shape[-1]),
+            "band_radiance": band.glsl(),
+            "sky_radiance": sky.glsl(),
+        }
+        buffers = mesh_buffers(
+            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
+        )
+        emissive = self.sensor.mode == "emissive"
+        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
+        self._background = background_pass(ctx, generated)
+        self._show = display_pass(ctx)
+        self._target = render_target(ctx, self.size, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
+        self._screen = render_target(ctx, self.size, {"grey": "R8"})
+        self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
+
+    def _band_lookup(self) -> LookupTable:
+        """Band radiance against temperature; reflective bands compile it but never read it."""
+        table = self.band_table
+        return LookupTable(
+            name="band_radiance",
+            quantity="Radiance",
+            argument="Kelvin",
+            minimum=150.0 if table is None else float(table.temperature[0]),
+            maximum=700.0 if table is None else float(table.temperature[-1]),
+            values=np.zeros(2) if table is None else table.radiance,
+        )
+
+    def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
+        coefficients = self.world.tables.at(time_of_day)
+        update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
+        update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
+        self._blocks["Illumination"].write(
+            ILLUMINATION.pack(
+                quadrant=illumination.quadrant,
+                sun_direction=illumination.sun_direction,
+                beam=illumination.beam,
+                sky_radiance=illumination.sky_radiance,
+                ground_radiance=illumination.ground_radiance,
+                air_radiance=illumination.air_radiance,
+                attenuation=illumination.attenuation,
+            )
+        )
+
+    def _draw(self, camera: Camera) -> None:
+        position = self.world.scene.mesh.position
+        near, far = clip_distances(camera, position.min(axis=0), position.max(axis=0))
+        corner, right, up = camera.view_rays(self.size)
+        self._blocks["ViewFrame"].write(
+            VIEW_FRAME.pack(
+                clip_from_camera=camera.clip_from_camera(self.size, near, far),
+                camera_position=camera.position,
+                view_corner=corner,
+                view_right=right,
+                view_up=up,
+            )
+        )
+        self._bind()
+        self._target.use()
+        self._target.clear_depth()
+        self.ctx.enable_only(moderngl.NOTHING)
+        self._background.draw()
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._surfaces.draw()
+
+    def _bind(self) -> None:
+        for block in _BLOCKS:
+            self._blocks[block.name].bind_to_uniform_block(block.binding)
+        for name, texture in self._tables.items():
+            texture.use(TEXTURE_UNITS[name])
+        self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
+
+    def _read(self) -> dict[str, NDArray[Any]]:
+        quantities = self._target.read("quantities")
+        if not np.all(np.isfinite(quantities)):
+            raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
+        planes: dict[str, NDArray[Any]] = {
+            name: np.ascontiguousarray(quantities[:, :, component]) for component, name in enumerate(QUANTITIES)
+        }
+        surface = self._target.read("id")[:, :, 0]
+        planes["surface_id"] = surface
+        planes["feature"] = np.where(surface < 0, -1, self.world.scene.surfaces.feature[np.maximum(surface, 0)])
+        if self.band_table is not None:
+            planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
+        return planes
+
+    def _display(self, settings: DisplaySettings) -> NDArray[np.uint8]:
+        low, high = window_limits(settings)
+        black_hot = float(settings.polarity == "black-hot")
+        self._blocks["Display"].write(DISPLAY.pack(level=0.5 * (low + high), span=high - low, black_hot=black_hot))
+        self._screen.use()
+        self.ctx.enable_only(moderngl.NOTHING)
+        self._show.draw()
+        return np.asarray(self._screen.read("grey")[:, :, 0])
+
+
+def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
+    """Radiances that an automatic gain goes by: of surfaces, so that a cold or bright sky does not take the window."""
+    seen = planes["surface_id"] >= 0
+    radiance: NDArray[np.float32] = planes["radiance"]
+    return radiance[seen] if np.any(seen) else radiance.ravel()

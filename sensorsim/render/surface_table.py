@@ -1,0 +1,34 @@
+"""Surfaces as records of a texture, so that a vertex carries only its place and its surface's row.
+
+The layout stands in shaders/scene/surface_record.glsl.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.tables import OrientationSet
+from sensorsim.tables.assign import Assignment
+from sensorsim.thermal.view_factors import quadrant_view_factors
+
+SURFACE_TEXELS = 5
+SURFACES_PER_ROW = 1024
+
+
+def surface_table(
+    normal: NDArray[np.float64], feature: NDArray[np.int32], assignment: Assignment, orientations: OrientationSet
+) -> NDArray[np.float32]:
+    """Records (rows, SURFACES_PER_ROW * SURFACE_TEXELS, 4) of surfaces with normals (s, 3)."""
+    corner, weight = orientations.locate(normal)
+    count = normal.shape[0]
+    record = np.zeros((count, SURFACE_TEXELS, 4))
+    record[:, 0] = np.column_stack([normal, assignment.wall_type])
+    record[:, 1] = np.column_stack([corner, assignment.emissivity])
+    record[:, 2] = np.column_stack([weight, assignment.reflectance])
+    record[:, 3] = quadrant_view_factors(normal)
+    record[:, 4, 0] = assignment.nir_reflectance
+    record[:, 4, 1] = feature
+    rows = -(-count // SURFACES_PER_ROW)
+    columns = SURFACES_PER_ROW if rows > 1 else count
+    padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
+    padded[:count] = record
+    return padded.reshape(rows, columns * SURFACE_TEXELS, 4)

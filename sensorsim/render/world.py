@@ -1,0 +1,50 @@
+"""A scene under its weather, with all tables baked: what any number of sensors can be pointed at."""
+
+from dataclasses import dataclass
+from datetime import date
+
+from sensorsim.environment import Environment, Weather, build_environment
+from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.scene import Scene
+from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
+from sensorsim.tables.assign import Assignment, assign_wall_types
+from sensorsim.tables.bake import Progress
+
+GROUND_CODE = 93  # loam: the ground plane that walls see
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class World:
+    """Everything that does not depend on the sensor."""
+
+    scene: Scene
+    weather: Weather
+    environment: Environment
+    assignment: Assignment
+    tables: ShadeTables
+
+
+def build_world(
+    scene: Scene,
+    weather: Weather,
+    *,
+    image_day: date,
+    settings: BakeSettings | None = None,
+    catalogue: Catalogue | None = None,
+    progress: Progress | None = None,
+) -> World:
+    """Bake the tables of a scene for one day of the weather."""
+    settings = BakeSettings() if settings is None else settings
+    catalogue = load_catalogue() if catalogue is None else catalogue
+    environment = build_environment(
+        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
+    )
+    assignment = assign_wall_types(scene, catalogue)
+    tables = bake_tables(
+        environment,
+        assignment.wall_types,
+        ground=catalogue.wall_type(GROUND_CODE, "none"),
+        settings=settings,
+        progress=progress,
+    )
+    return World(scene=scene, weather=weather, environment=environment, assignment=assignment, tables=tables)

@@ -1,0 +1,25 @@
+#version 330 core
+// Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
+// plane of [Report1978] section 3.1.3 through its air path.
+#include "common/quantities.glsl"
+#include "generated/view_frame_block.glsl"
+#include "generated/sky_radiance.glsl"
+#include "radiance/path.glsl"
+
+in vec2 picture_position;
+
+layout(location = 0) out vec4 quantities;
+layout(location = 1) out int id;
+
+Radiance background_radiance(Direction view) {
+    if (view.z >= 0.0) return sky_radiance(asin(min(view.z, 1.0)));
+    Metre height = max(view_frame.camera_position.z, 0.0);
+    return apparent_radiance(illumination.ground_radiance, height / -view.z);
+}
+
+void main() {
+    vec3 view = view_frame.view_corner
+              + picture_position.x * view_frame.view_right + picture_position.y * view_frame.view_up;
+    quantities = vec4(background_radiance(normalize(view)), 0.0, 0.0, 0.0);
+    id = -1;
+}
