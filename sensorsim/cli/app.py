@@ -1,0 +1,31 @@
+"""The commands under one name, and how errors leave the program: one line, exit code 2 for bad input, 1 otherwise."""
+
+import sys
+
+import typer
+from rich.console import Console
+
+from sensorsim.cli.gallery import gallery
+from sensorsim.cli.info import info
+from sensorsim.cli.render import render
+from sensorsim.cli.scene import scene
+from sensorsim.errors import InputError, SensorsimError
+
+app = typer.Typer(
+    name="sensorsim",
+    help="Physically based imagery of passive electro-optical sensors.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+for command in (render, gallery, scene, info):
+    app.command()(command)
+
+
+def main() -> None:
+    """Run the command line."""
+    try:
+        app()
+    except SensorsimError as error:
+        Console(stderr=True, soft_wrap=True).print(f"sensorsim: {error}", style="red", markup=False, highlight=False)
+        sys.exit(2 if isinstance(error, InputError) else 1)

@@ -1,0 +1,31 @@
+"""`sensorsim gallery`: the report's figures as contact sheets."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from sensorsim.cli.options import AsJson, Backend, Preset, bake_progress, read_size
+from sensorsim.study import make_gallery
+from sensorsim.tables import preset as bake_preset
+
+
+def gallery(
+    out: Annotated[Path, typer.Option(help="Folder of the sheets.")] = Path("out/gallery"),
+    size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of each picture.")] = "480x360",
+    preset: Preset = "standard",
+    backend: Backend = "auto",
+    as_json: AsJson = False,
+) -> None:
+    """Draw figures 19 and 21 to 27 of the report as labelled contact sheets."""
+    pixels, settings = read_size(size), bake_preset(preset)
+    with bake_progress("gallery") as progress:
+        sheets = make_gallery(out, size=pixels, settings=settings, backend=backend, progress=progress)
+    if as_json:
+        print(json.dumps({"files": [str(path) for path in sheets]}))  # noqa: T201
+        return
+    console = Console(soft_wrap=True)
+    for path in sheets:
+        console.print(f"wrote {path}", markup=False, highlight=False)

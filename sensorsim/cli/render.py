@@ -1,0 +1,108 @@
+"""`sensorsim render`: one frame to disk."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.console import Console
+
+from sensorsim.cli.options import (
+    AsJson,
+    Backend,
+    Level,
+    Preset,
+    SceneName,
+    bake_progress,
+    find_weather,
+    read_moment,
+    read_size,
+)
+from sensorsim.errors import InputError
+from sensorsim.frames import Frame, take_frame, write_frame
+from sensorsim.radiometry import build_band_table
+from sensorsim.render import Camera, Renderer, build_world, station_camera
+from sensorsim.scene import Scene, load_scene
+from sensorsim.sensor import DisplaySettings, Sensor, load_sensor, window_from_temperatures
+from sensorsim.tables import preset as bake_preset
+
+
+def render(
+    scene: SceneName,
+    at: Annotated[str, typer.Option(help="Local standard time, ISO 8601: 1976-02-07T10:00.")],
+    out: Annotated[Path, typer.Option(help="File of the picture: .png, or .exr, .npy, .tiff for planes alone.")],
+    level: Level = "IIIB",
+    sensor: Annotated[
+        str, typer.Option(help="Sensor that comes with the package (flir, lltv), or a TOML file.")
+    ] = "flir",
+    camera: Annotated[
+        str, typer.Option(help="Camera of the scene, or east,north,up,yaw,pitch in m and deg.")
+    ] = "tower",
+    field_of_view: Annotated[float | None, typer.Option(help="Horizontal field of view [deg].")] = None,
+    size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; the sensor's own if left out.")] = None,
+    weather: Annotated[
+        str | None, typer.Option(help="winter, summer, fall or a CSV file; by date if left out.")
+    ] = None,
+    planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
+    plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
+    window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
+    polarity: Annotated[str, typer.Option(help="white-hot or black-hot.")] = "white-hot",
+    preset: Preset = "standard",
+    backend: Backend = "auto",
+    as_json: AsJson = False,
+) -> None:
+    """Render one frame and write it with a sidecar of all its inputs."""
+    device = load_sensor(sensor)
+    pixels = device.size if size is None else read_size(size)
+    display = _display(device, window, polarity)
+    moment = read_moment(at)
+    place = load_scene(scene, level=level)
+    view = read_camera(place, camera, field_of_view)
+    settings = bake_preset(preset)
+    with bake_progress("baking") as progress:
+        world = build_world(
+            place, find_weather(weather, moment.date()), image_day=moment.date(), settings=settings, progress=progress
+        )
+    with Renderer(world, device, size=pixels, backend=backend) as renderer:
+        frame = take_frame(renderer, view, moment, display=display)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    files = write_frame(frame, out, planes=[name for name in planes.split(",") if name], plane_format=plane_format)
+    _report(frame, files, as_json)
+
+
+def read_camera(scene: Scene, text: str, field_of_view: float | None) -> Camera:
+    """The scene's camera of that name, or one from five numbers."""
+    if "," in text:
+        try:
+            east, north, up, yaw, pitch = (float(part) for part in text.split(","))
+        except ValueError as error:
+            remedy = "write east,north,up,yaw,pitch or a name"
+            raise InputError("command line", "--camera", text, "not five numbers", remedy) from error
+        field = 40.0 if field_of_view is None else field_of_view
+        return Camera(position=np.array([east, north, up]), yaw=yaw, pitch=pitch, horizontal_field_of_view=field)
+    return station_camera(scene, text, horizontal_field_of_view=field_of_view)
+
+
+def _display(sensor: Sensor, window: str | None, polarity: str) -> DisplaySettings:
+    if window is None:
+        return DisplaySettings(polarity=polarity, level=sensor.display.level, span=sensor.display.span)  # type: ignore[arg-type]
+    try:
+        cold, warm = (float(part) for part in window.split(":"))
+    except ValueError as error:
+        raise InputError("command line", "--window", window, "no COLD:WARM", "write for example 260:300") from error
+    if sensor.mode != "emissive":
+        remedy = "leave it out for this sensor"
+        raise InputError("command line", "--window", window, f"{sensor.name} sees reflected light", remedy)
+    level, span = window_from_temperatures(build_band_table(sensor.band), cold, warm)
+    return DisplaySettings(polarity=polarity, level=level, span=span)  # type: ignore[arg-type]
+
+
+def _report(frame: Frame, files: list[Path], as_json: bool) -> None:
+    if as_json:
+        limits = {name: plane.limits for name, plane in frame.planes.items()}
+        print(json.dumps({"files": [str(path) for path in files], "limits": limits, "settings": frame.settings}))  # noqa: T201
+        return
+    console = Console(soft_wrap=True)
+    for path in files:
+        console.print(f"wrote {path}", markup=False, highlight=False)
