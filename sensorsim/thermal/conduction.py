@@ -7,15 +7,19 @@ consistency (eq. 10) demands.
 
 import numpy as np
 
+from sensorsim.thermal.boundary import Cells
 from sensorsim.thermal.grid import FloatArray, WallGrid
-from sensorsim.thermal.kernel import GAMMA, Cells
+
+STIFF = 1.2  # of a cell's own relaxation over a step: half the least mode whose SDIRK factor is negative
 
 
-def factor(grid: WallGrid, step: float) -> Cells:
-    """Elimination factors of a wall for steps of `step` [s]."""
-    rate = grid.capacity / (GAMMA * step)
+def factor(grid: WallGrid, span: float, step: float) -> Cells:
+    """Elimination factors of a wall for an implicit stage of `span` [s] within steps of `step` [s]."""
+    rate = grid.capacity / span
     conductance = grid.conductance
     n = rate.size
+    stiff = step * (conductance[:-1] + conductance[1:]) > STIFF * grid.capacity
+    lag = rate / (conductance[:-1] + conductance[1:])
     pivot = np.zeros(n)
     for i in range(n):
         above = conductance[i] ** 2 * pivot[i - 1] if i > 0 else 0.0
@@ -23,7 +27,7 @@ def factor(grid: WallGrid, step: float) -> Cells:
     influence = np.zeros((2, n))
     if n == 0:
         exchange = np.full((2, 2), conductance[0])
-        return Cells(rate, conductance, pivot, influence, exchange)
+        return Cells(rate, conductance, pivot, influence, exchange, stiff, lag)
     sources = np.zeros((2, n))
     sources[0, 0], sources[1, n - 1] = conductance[0], conductance[n]
     for row in range(2):
@@ -34,7 +38,7 @@ def factor(grid: WallGrid, step: float) -> Cells:
             [conductance[n] * influence[0, n - 1], conductance[n] * (1.0 - influence[1, n - 1])],
         ]
     )
-    return Cells(rate, conductance, pivot, influence, exchange)
+    return Cells(rate, conductance, pivot, influence, exchange, stiff, lag)
 
 
 def _solve(source: FloatArray, conductance: FloatArray, pivot: FloatArray) -> FloatArray:

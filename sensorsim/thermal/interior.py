@@ -10,9 +10,9 @@ import numpy as np
 from scipy.signal import lfilter
 
 from sensorsim.errors import InputError
+from sensorsim.thermal.boundary import Inside
 from sensorsim.thermal.convection import INTERIOR_FREE
 from sensorsim.thermal.grid import FloatArray
-from sensorsim.thermal.kernel import Inside
 from sensorsim.units import kelvin_from_fahrenheit
 
 HEATED_ABOVE = kelvin_from_fahrenheit(65.0)  # [K]

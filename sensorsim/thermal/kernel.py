@@ -1,206 +1,300 @@
-"""The inner loop: steps of many columns through one wall, compiled.
+"""The inner loop, compiled: steps of many columns through one wall, in blocks of one lane each.
 
-A column is one orientation at one solar absorptance. Within a step each stage solves (C / (gamma dt) + K) T = rhs for
-the cells, which is linear and the same for all columns, and a balance at each face, which is not. The cells are
-condensed onto the two faces by one forward and one backward sweep; a 2 x 2 Newton iteration then finds the faces.
-Stages: two-stage, second-order, L-stable SDIRK with gamma = 1 - 1/sqrt(2) [Alexander1977]; inputs are linear between
-samples. Films join forced and free convection by their cubes [Churchill1977]; the cube root is taken by one Newton
-step along with each step of the face temperatures, because it starts from the last step's value.
+A column is one orientation at one solar absorptance. A stage solves (C / (gamma dt) + K) T = rhs for the cells, linear
+and alike for all columns, condensed onto the faces; their balances are not linear: a 2 x 2 Newton iteration.
+
+Steps: two-stage, second-order, L-stable SDIRK with gamma = 1 - 1/sqrt(2) [Alexander1977]; inputs are linear between
+samples. No method of second order keeps every answer monotone [Bolley1978], and a thin metal skin would overshoot the
+sunrise: columns in which a stiff cell runs past the temperature that it is drawn to, or leaves the range that its
+boundaries and past allow, take that step by backward Euler instead, which can do neither.
+
+Faces: films join forced and free convection by their cubes [Churchill1977]; the cube root takes one Newton step along
+with each step of the temperatures, because it starts from the last stage's value. Saturation pressure over water is
+the polynomial of [Lowe1977], which vectorises where an exponential does not. Temperatures are in degrees Celsius, so
+that a metal skin's conductance of 1e6 W m-2 K-1 multiplies the rounding errors of 20 and not of 300.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
-
-FloatArray = NDArray[np.float64]
+from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT, ZERO_CELSIUS
+from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Work
 
 GAMMA = 1.0 - np.sqrt(0.5)
 CARRY = (1.0 - GAMMA) / GAMMA  # weight of the first stage's change in the second stage's right side
-BLOCK = 32  # columns that go through the cells together: fills the vector registers, stays in the nearest cache
-ITERATION_LIMIT = 60
-TOLERANCE = 1e-9  # [K]
-LEAST_FILM = 1e-6  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
+TURN = 1e-7  # [K] overshoot that is left alone
+# Rows of a block's load.
+ABSORBED, FILM_CUBED, FREE, AIR, EXCHANGE, VAPOUR, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, MARK = range(12)
+LANES = 32
 SIGMA = STEFAN_BOLTZMANN_CONSTANT
+ITERATION_LIMIT = 100
+TOLERANCE = 1e-6  # [K] last move; Newton squares it, so that what is left is below 1e-10 K
+LEAST_FILM = 1e-9  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
+COLDEST_WATER = -100.0  # [C] below which the saturation polynomial is held
 
 
-class Cells(NamedTuple):
-    """A wall's linear part, factored for one step length."""
-
-    rate: FloatArray  # (n,) capacity / (gamma step) [W m-2 K-1]
-    conductance: FloatArray  # (n + 1,) [W m-2 K-1]
-    pivot: FloatArray  # (n,) reciprocal pivots of the elimination [m2 K W-1]
-    influence: FloatArray  # (2, n) cell temperatures per kelvin of the exterior and of the interior face [-]
-    exchange: FloatArray  # (2, 2) flux into the wall per kelvin of either face [W m-2 K-1]
-
-
-class Outside(NamedTuple):
-    """What acts on the exterior face, at samples (t) and orientations (o)."""
-
-    irradiance: FloatArray  # (t, o) solar [W m-2]
-    longwave: FloatArray  # (t, o) irradiance from sky and ground [W m-2]
-    film: FloatArray  # (t, o) forced [W m-2 K-1]
-    free: FloatArray  # (o,) free film cubed per kelvin [W3 m-6 K-4]
-    air: FloatArray  # (t,) [K]
-    emissivity: float
-
-
-class Inside(NamedTuple):
-    """What acts on the interior face."""
-
-    air: FloatArray  # (t,) [K]
-    radiant: FloatArray  # (t,) [K]
-    film: FloatArray  # (t,) forced [W m-2 K-1]
-    free: float  # free film cubed per kelvin [W3 m-6 K-4]
-    emissivity: float
-
-
-class Columns(NamedTuple):
-    """State of all columns, updated in place."""
-
-    cells: FloatArray  # (n, m) [K]
-    faces: FloatArray  # (2, m) exterior, interior [K]
-    films: FloatArray  # (2, m) total films [W m-2 K-1]
-    heat: FloatArray  # (2, m) heat that has entered through each face [J m-2]
-    orientation: NDArray[np.int64]  # (m,)
-    absorptance: FloatArray  # (m,)
-
-
-@njit(cache=True, nogil=True, error_model="numpy", boundscheck=False)
+@njit(cache=True, nogil=True, error_model="numpy")
 def advance(
-    columns: Columns, cells: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float
+    columns: Columns, cells: Cells, damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float
 ) -> int:
-    """Make steps `first` to `last` - 1 [of `step` s]; returns how many face balances did not converge."""
+    """Make steps `first` to `last` - 1 [of `step` s]; returns how many face balances did not converge.
+
+    `cells` is the wall factored for gamma `step`, `damped` for `step`.
+    """
     n, m = columns.cells.shape
-    failures = 0
-    stage = np.zeros((n, BLOCK))
-    target = np.zeros((n, BLOCK))
-    load = np.zeros((5, BLOCK))
-    for begin in range(0, m, BLOCK):
-        width = min(BLOCK, m - begin)
+    failures, block, pair = 0, (n, LANES), (2, LANES)
+    work = Work(
+        np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros((12, LANES)),
+        np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros((6, LANES)),
+    )  # fmt: skip
+    lane, absorptance = np.zeros(LANES, dtype=np.int64), np.zeros(LANES)
+    for begin in range(0, m, LANES):
+        _take(columns, work, lane, absorptance, begin)
+        heat = np.zeros((2, LANES))
         for k in range(first, last):
-            for s in range(2):
-                _right_side(columns.cells, stage, target, begin, width, s)
-                _sweep(target, cells, width)
-                at = GAMMA if s == 0 else 1.0
-                _load(load, columns, outside, k, at, begin, width)
-                room = _room(inside, k, at)
-                failures += _faces(columns, load, target, cells, outside, inside, room, begin, width)
-                weight = step * (1.0 - GAMMA) if s == 0 else step * GAMMA
-                _settle(columns, stage, target, cells, weight, begin, width)
-            for i in range(n):
-                for j in range(width):
-                    columns.cells[i, begin + j] = stage[i, j]
+            failures += _step(work, lane, absorptance, cells, damped, outside, inside, k)
+            for face in range(2):
+                for j in range(LANES):
+                    heat[face, j] += step * work.flux[face, j]
+        _give(columns, work, heat, begin)
     return failures
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _right_side(cells: FloatArray, stage: FloatArray, target: FloatArray, begin: int, width: int, s: int) -> None:
-    """Temperatures that the stage relaxes from; the second stage carries the first one's slope on."""
-    for i in range(cells.shape[0]):
-        for j in range(width):
-            start = cells[i, begin + j]
-            target[i, j] = start if s == 0 else start + CARRY * (stage[i, j] - start)
+def _take(columns: Columns, work: Work, lane: NDArray[np.int64], absorptance: FloatArray, begin: int) -> None:
+    """Columns into lanes; lanes beyond the last column repeat it."""
+    n, m = columns.cells.shape
+    for j in range(LANES):
+        c = min(begin + j, m - 1)
+        lane[j], absorptance[j] = columns.orientation[c], columns.absorptance[c]
+        for i in range(n):
+            work.now[i, j] = columns.cells[i, c]
+        for face in range(2):
+            work.faces[face, j], work.films[face, j] = columns.faces[face, c], columns.films[face, c]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _sweep(target: FloatArray, cells: Cells, width: int) -> None:
-    """Solve the cells for faces at 0 K, in place."""
-    n = cells.rate.shape[0]
-    for i in range(n):
-        for j in range(width):
-            above = cells.conductance[i] * target[i - 1, j] if i > 0 else 0.0
-            target[i, j] = (cells.rate[i] * target[i, j] + above) * cells.pivot[i]
-    for i in range(n - 2, -1, -1):
-        for j in range(width):
-            target[i, j] += cells.conductance[i + 1] * cells.pivot[i] * target[i + 1, j]
+def _give(columns: Columns, work: Work, heat: FloatArray, begin: int) -> None:
+    """Lanes back into columns."""
+    n, m = columns.cells.shape
+    for j in range(min(LANES, m - begin)):
+        for i in range(n):
+            columns.cells[i, begin + j] = work.now[i, j]
+        for face in range(2):
+            columns.faces[face, begin + j], columns.films[face, begin + j] = work.faces[face, j], work.films[face, j]
+            columns.heat[face, begin + j] += heat[face, j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _load(load: FloatArray, columns: Columns, outside: Outside, k: int, at: float, begin: int, width: int) -> None:
-    """Absorbed flux, forced film and its cube, free film and air of a block at a fraction of step k."""
+def _step(
+    work: Work, lane: NDArray[np.int64], absorptance: FloatArray, cells: Cells, damped: Cells, outside: Outside,
+    inside: Inside, k: int,
+) -> int:  # fmt: skip
+    """One step of one block: two stages and, where lanes call for it, backward Euler; returns failed balances."""
+    n, failures, solves = work.now.shape[0], 0, 2
+    wet = outside.latent.shape[0] > 1
+    work.ends[:] = work.faces
+    for solve in range(3):
+        if solve == 2:
+            if not _calls_for_damping(work, lane, cells, outside, inside, k):
+                break
+            solves = 3
+            work.kept[:] = work.cells
+            work.trial[:] = work.ends
+            work.ends[:] = work.faces
+        for i in range(n):
+            for j in range(LANES):
+                change = work.cells[i, j] - work.now[i, j]
+                work.first[i, j] = change if solve == 1 else work.first[i, j]
+                work.star[i, j] = work.now[i, j] + (CARRY * change if solve == 1 else 0.0)
+        at = GAMMA if solve == 0 else 1.0
+        _load(work.load, lane, absorptance, outside, k, at)
+        wall = damped if solve == 2 else cells
+        failures += _solve(work, wall, outside.emissivity, inside, k, at, wet, 2 * solve)
+    _finish(work, solves == 3)
+    return failures
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _finish(work: Work, damped: bool) -> None:
+    """The step's outcome, of the lanes that are marked by backward Euler, into `now`, `faces` and the first fluxes."""
+    for face in range(2):
+        for j in range(LANES):
+            again = damped and work.load[MARK, j] > 0.0
+            late = (1.0 - GAMMA) * work.flux[face, j] + GAMMA * work.flux[2 + face, j]
+            work.flux[face, j] = work.flux[4 + face, j] if again else late
+            work.faces[face, j] = work.trial[face, j] if damped and not again else work.ends[face, j]
+    if damped:
+        for i in range(work.now.shape[0]):
+            for j in range(LANES):
+                work.now[i, j] = work.cells[i, j] if work.load[MARK, j] > 0.0 else work.kept[i, j]
+    else:
+        work.now[:] = work.cells
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _load(
+    load: FloatArray, lane: NDArray[np.int64], absorptance: FloatArray, outside: Outside, k: int, at: float
+) -> None:
+    """What acts on the exterior face at a fraction of step k."""
     rest = 1.0 - at
-    for j in range(width):
-        o = columns.orientation[begin + j]
+    air = rest * outside.air[k] + at * outside.air[k + 1] - ZERO_CELSIUS
+    for j in range(LANES):
+        o = lane[j]
         sun = rest * outside.irradiance[k, o] + at * outside.irradiance[k + 1, o]
         sky = rest * outside.longwave[k, o] + at * outside.longwave[k + 1, o]
-        load[0, j] = columns.absorptance[begin + j] * sun + outside.emissivity * sky
-        load[1, j] = rest * outside.film[k, o] + at * outside.film[k + 1, o]
-        load[2, j] = outside.free[o]
-        load[3, j] = rest * outside.air[k] + at * outside.air[k + 1]
+        film = rest * outside.film[k, o] + at * outside.film[k + 1, o]
+        load[ABSORBED, j] = absorptance[j] * sun + outside.emissivity * sky
+        load[FILM_CUBED, j] = film * film * film
+        load[FREE, j] = outside.free[o]
+        load[AIR, j] = air
+    if outside.latent.shape[0] > 1:
+        for j in range(LANES):
+            o = lane[j]
+            load[EXCHANGE, j] = rest * outside.latent[k, o] + at * outside.latent[k + 1, o]
+            load[VAPOUR, j] = rest * outside.vapour[k] + at * outside.vapour[k + 1]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _room(inside: Inside, k: int, at: float) -> tuple[float, float, float]:
-    """Interior air, absorbed interior radiation and interior forced film at a fraction of step k."""
+def _calls_for_damping(
+    work: Work, lane: NDArray[np.int64], cells: Cells, outside: Outside, inside: Inside, k: int
+) -> bool:
+    """Mark the lanes that call for it: a stiff cell passed the temperature it was drawn to, or left its bounds."""
+    _bound(work, lane, outside, inside, k)
+    least, most, mark = work.load[LEFT], work.load[RIGHT], work.load[MARK]
+    for j in range(LANES):
+        mark[j] = 0.0
+    for i in range(work.now.shape[0]):
+        reach = 1.0 + cells.lag[i] if cells.stiff[i] else 1e9
+        for j in range(LANES):
+            first, second = work.first[i, j], work.cells[i, j] - work.star[i, j]
+            beyond = work.cells[i, j] - work.now[i, j] - reach * first  # past the balance of the first stage
+            passed = first * second < 0.0 and beyond * first > 0.0 and abs(beyond) > TURN
+            left = work.cells[i, j] < least[j] or work.cells[i, j] > most[j]
+            mark[j] = 1.0 if passed or left else mark[j]
+    return bool(mark.max() > 0.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _bound(work: Work, lane: NDArray[np.int64], outside: Outside, inside: Inside, k: int) -> None:
+    """Range that the maximum principle leaves for a step: past, air, radiant surroundings; sun lifts the upper end."""
+    low = min(outside.air[k], outside.air[k + 1], inside.air[k], inside.air[k + 1])
+    high = max(outside.air[k], outside.air[k + 1], inside.air[k], inside.air[k + 1])
+    low = min(low, inside.radiant[k], inside.radiant[k + 1]) - ZERO_CELSIUS
+    high = max(high, inside.radiant[k], inside.radiant[k + 1]) - ZERO_CELSIUS
+    least, most, wet = work.load[LEFT], work.load[RIGHT], outside.latent.shape[0] > 1
+    for j in range(LANES):
+        o = lane[j]
+        sky, later = outside.longwave[k, o], outside.longwave[k + 1, o]
+        coldest = np.sqrt(np.sqrt(min(sky, later) / SIGMA)) - ZERO_CELSIUS
+        warmest = np.sqrt(np.sqrt(max(sky, later) / SIGMA)) - ZERO_CELSIUS
+        sunlit = outside.irradiance[k, o] + outside.irradiance[k + 1, o] > 0.0
+        least[j] = -1e9 if wet else min(low, coldest, work.faces[0, j], work.faces[1, j])
+        most[j] = 1e9 if wet or sunlit else max(high, warmest, work.faces[0, j], work.faces[1, j])
+    for i in range(work.now.shape[0]):
+        for j in range(LANES):
+            least[j], most[j] = min(least[j], work.now[i, j]), max(most[j], work.now[i, j])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _solve(work: Work, wall: Cells, emissivity: float, inside: Inside, k: int, at: float, wet: bool, row: int) -> int:
+    """Solve a stage from its right side `star` into `cells` and `ends`; fluxes go to `row`; returns failed balances."""
+    n, load, ends, a = work.now.shape[0], work.load, work.ends, wall.exchange
+    _sweep(work.cells, work.star, wall)
+    for j in range(LANES):
+        load[LEFT, j] = wall.conductance[0] * work.cells[0, j] if n > 0 else 0.0
+        load[RIGHT, j] = wall.conductance[n] * work.cells[n - 1, j] if n > 0 else 0.0
     rest = 1.0 - at
     radiant = rest * inside.radiant[k] + at * inside.radiant[k + 1]
-    return (
-        rest * inside.air[k] + at * inside.air[k + 1],
-        inside.emissivity * SIGMA * radiant**4,
-        rest * inside.film[k] + at * inside.film[k + 1],
-    )
+    air = rest * inside.air[k] + at * inside.air[k + 1] - ZERO_CELSIUS
+    film = rest * inside.film[k] + at * inside.film[k + 1]
+    room = (air, inside.emissivity * SIGMA * radiant**4, film**3, inside.free, inside.emissivity * SIGMA)
+    failures = _balance(work, a, emissivity * SIGMA, room, wet)
+    for j in range(LANES):
+        work.flux[row, j] = a[0, 0] * ends[0, j] - a[0, 1] * ends[1, j] - load[LEFT, j]
+        work.flux[row + 1, j] = a[1, 1] * ends[1, j] - a[1, 0] * ends[0, j] - load[RIGHT, j]
+    for i in range(n):
+        for j in range(LANES):
+            work.cells[i, j] += wall.influence[0, i] * ends[0, j] + wall.influence[1, i] * ends[1, j]
+    return failures
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _film(forced: float, free: float, difference: float, h: float) -> float:
-    """Total film, by a Newton step towards (forced^3 + free |difference|)^(1/3) from h [W m-2 K-1]."""
-    root = (2.0 * h + (forced * forced * forced + free * difference) / (h * h)) / 3.0
-    return forced if free == 0.0 else max(root, LEAST_FILM)
+def _sweep(cells: FloatArray, star: FloatArray, wall: Cells) -> None:
+    """Solve the cells for faces at 0 C."""
+    n = cells.shape[0]
+    for i in range(n):
+        rate, pivot = wall.rate[i] * wall.pivot[i], wall.pivot[i] * wall.conductance[i]
+        for j in range(LANES):
+            cells[i, j] = rate * star[i, j]
+        if i > 0:
+            for j in range(LANES):
+                cells[i, j] += pivot * cells[i - 1, j]
+    for i in range(n - 2, -1, -1):
+        back = wall.conductance[i + 1] * wall.pivot[i]
+        for j in range(LANES):
+            cells[i, j] += back * cells[i + 1, j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _faces(
-    columns: Columns, load: FloatArray, target: FloatArray, cells: Cells, outside: Outside, inside: Inside,
-    room: tuple[float, float, float], begin: int, width: int,
-) -> int:  # fmt: skip
-    """Newton iteration of both faces' heat balances for a block; returns how many columns did not converge."""
-    faces, films, n = columns.faces, columns.films, cells.rate.shape[0]
-    grey, grey_inside = outside.emissivity * SIGMA, inside.emissivity * SIGMA
-    a, b, c, d = cells.exchange[0, 0], cells.exchange[0, 1], cells.exchange[1, 0], cells.exchange[1, 1]
+def _balance(
+    work: Work, exchange: FloatArray, grey: float, room: tuple[float, float, float, float, float], wet: bool
+) -> int:
+    """Newton iteration of both faces; returns how many lanes did not converge."""
+    moving = 0
     for _ in range(ITERATION_LIMIT):
-        for j in range(width):
-            ext, inn = faces[0, begin + j], faces[1, begin + j]
-            from_first = cells.conductance[0] * target[0, j] if n > 0 else 0.0
-            from_last = cells.conductance[n] * target[n - 1, j] if n > 0 else 0.0
-            gap, gap_inside = load[3, j] - ext, room[0] - inn
-            h = _film(load[1, j], load[2, j], abs(gap), films[0, begin + j])
-            h_inside = _film(room[2], inside.free, abs(gap_inside), films[1, begin + j])
-            films[0, begin + j], films[1, begin + j] = h, h_inside
-            left = load[0, j] + h * gap - grey * ext**4 - a * ext + b * inn + from_first
-            right = room[1] + h_inside * gap_inside - grey_inside * inn**4 - d * inn + c * ext + from_last
-            bend = load[2, j] * abs(gap) / (3.0 * h * h) if load[2, j] > 0.0 else 0.0
-            bend_inside = inside.free * abs(gap_inside) / (3.0 * h_inside * h_inside) if inside.free > 0.0 else 0.0
-            slope = a + h + bend + 4.0 * grey * ext**3
-            slope_inside = d + h_inside + bend_inside + 4.0 * grey_inside * inn**3
-            scale = 1.0 / (slope * slope_inside - b * c)
-            move, move_inside = (left * slope_inside + b * right) * scale, (right * slope + c * left) * scale
-            faces[0, begin + j], faces[1, begin + j] = max(ext + move, 0.0), max(inn + move_inside, 0.0)
-            load[4, j] = abs(move) + abs(move_inside)
+        if wet:
+            _evaporate(work.load, work.ends)
+        _approach(work.load, work.ends, work.films, exchange, grey, room)
         moving = 0
-        for j in range(width):
-            moving += not load[4, j] <= TOLERANCE
+        for j in range(LANES):
+            moving += 0 if work.load[MOVED, j] <= TOLERANCE else 1
         if moving == 0:
-            return 0
+            break
     return moving
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _settle(
-    columns: Columns, stage: FloatArray, target: FloatArray, cells: Cells, weight: float, begin: int, width: int
-) -> None:
-    """Cells from the found faces; the heat that went through the faces during the stage."""
-    n = cells.rate.shape[0]
-    for i in range(n):
-        for j in range(width):
-            ext, inn = columns.faces[0, begin + j], columns.faces[1, begin + j]
-            stage[i, j] = target[i, j] + cells.influence[0, i] * ext + cells.influence[1, i] * inn
-    for j in range(width):
-        ext, inn = columns.faces[0, begin + j], columns.faces[1, begin + j]
-        next_ext = stage[0, j] if n > 0 else inn
-        next_inn = stage[n - 1, j] if n > 0 else ext
-        columns.heat[0, begin + j] += weight * cells.conductance[0] * (ext - next_ext)
-        columns.heat[1, begin + j] += weight * cells.conductance[n] * (inn - next_inn)
+def _approach(
+    load: FloatArray, ends: FloatArray, films: FloatArray, exchange: FloatArray, grey: float,
+    room: tuple[float, float, float, float, float],
+) -> None:  # fmt: skip
+    """One Newton step of both faces, in one loop over the lanes, because that is what vectorises."""
+    a, b, c, d = exchange[0, 0], exchange[0, 1], exchange[1, 0], exchange[1, 1]
+    air, radiation, cubed, free, grey_inside = room
+    third = 1.0 / 3.0
+    for j in range(LANES):
+        ext, inn, h, h_inside = ends[0, j], ends[1, j], films[0, j], films[1, j]
+        gap, gap_inside = load[AIR, j] - ext, air - inn
+        inverse, inverse_inside = 1.0 / (h * h), 1.0 / (h_inside * h_inside)
+        lift, lift_inside = load[FREE, j] * abs(gap) * inverse, free * abs(gap_inside) * inverse_inside
+        h = max((2.0 * h + load[FILM_CUBED, j] * inverse + lift) * third, LEAST_FILM)
+        h_inside = max((2.0 * h_inside + cubed * inverse_inside + lift_inside) * third, LEAST_FILM)
+        kelvin, kelvin_inside = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
+        cube = grey * kelvin * kelvin * kelvin
+        cube_inside = grey_inside * kelvin_inside * kelvin_inside * kelvin_inside
+        lack = load[ABSORBED, j] + h * gap - cube * kelvin - load[LATENT, j] - a * ext + b * inn + load[LEFT, j]
+        lack_inside = radiation + h_inside * gap_inside - cube_inside * kelvin_inside
+        lack_inside += c * ext - d * inn + load[RIGHT, j]
+        slope = a + h + lift * third + 4.0 * cube + load[LATENT_SLOPE, j]
+        slope_inside = d + h_inside + lift_inside * third + 4.0 * cube_inside
+        scale = 1.0 / (slope * slope_inside - b * c)
+        move = (lack * slope_inside + b * lack_inside) * scale
+        move_inside = (lack_inside * slope + c * lack) * scale
+        films[0, j], films[1, j] = h, h_inside
+        ends[0, j], ends[1, j] = max(ext + move, -ZERO_CELSIUS), max(inn + move_inside, -ZERO_CELSIUS)
+        load[MOVED, j] = abs(move) + abs(move_inside)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _evaporate(load: FloatArray, ends: FloatArray) -> None:
+    """Latent heat that leaves a wet face and its slope, by the saturation pressure of [Lowe1977]."""
+    for j in range(LANES):
+        t = max(ends[0, j], COLDEST_WATER)
+        high = 3.031240396e-4 + t * (2.034080948e-6 + t * 6.136820929e-9)
+        pressure = 610.7799961 + t * (44.36518521 + t * (1.428945805 + t * (2.650648471e-2 + t * high)))
+        high = 4.0 * 3.031240396e-4 + t * (5.0 * 2.034080948e-6 + t * 6.0 * 6.136820929e-9)
+        rise = 44.36518521 + t * (2.0 * 1.428945805 + t * (3.0 * 2.650648471e-2 + t * high))
+        load[LATENT, j] = load[EXCHANGE, j] * (pressure - load[VAPOUR, j])
+        load[LATENT_SLOPE, j] = load[EXCHANGE, j] * max(rise, 0.0)

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
+from sensorsim.thermal.boundary import Columns, Inside, Outside
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
-from sensorsim.thermal.kernel import Columns, Inside, Outside, advance
+from sensorsim.thermal.kernel import GAMMA, advance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +44,9 @@ def march(
     temperatures `start` (n,) [K] are given.
     """
     grid = build_grid(layers, step) if grid is None else grid
-    cells = factor(grid, step)
+    cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    if outside.vapour.size == 0:
+        outside = outside._replace(vapour=np.zeros_like(outside.air))
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior = np.zeros((record.size, *shape))
@@ -51,14 +55,14 @@ def march(
     before = grid.capacity @ columns.cells
     sample = 0
     for row, wanted in enumerate(record):
-        failures = advance(columns, cells, outside, inside, sample, int(wanted), step)
+        failures = advance(columns, cells, damped, outside, inside, sample, int(wanted), step)
         if failures or not np.all(np.isfinite(columns.faces)):
             raise NumericsError(f"heat balance of a wall did not converge between samples {sample} and {int(wanted)}")
         sample = int(wanted)
-        exterior[row] = columns.faces[0].reshape(shape)
-        interior[row] = columns.faces[1].reshape(shape)
+        exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
+        interior[row] = columns.faces[1].reshape(shape) + ZERO_CELSIUS
         if nodes is not None:
-            nodes[row] = columns.cells.reshape(-1, *shape)
+            nodes[row] = columns.cells.reshape(-1, *shape) + ZERO_CELSIUS
     return History(
         sample=record,
         exterior=exterior,
@@ -81,8 +85,8 @@ def _start(
     profile = line[1:-1] if start is None else start
     faces = np.repeat(line[[0, -1], None], count, axis=1)
     return Columns(
-        cells=np.repeat(profile[:, None], count, axis=1),
-        faces=faces,
+        cells=np.repeat(profile[:, None], count, axis=1) - ZERO_CELSIUS,
+        faces=faces - ZERO_CELSIUS,
         films=np.full((2, count), 5.0),
         heat=np.zeros((2, count)),
         orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),

@@ -1,0 +1,73 @@
+"""What the march takes in: a wall's factored linear part, its boundary conditions on both faces, its state.
+
+Named tuples, because compiled code takes them as they are.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+class Cells(NamedTuple):
+    """A wall's linear part, factored for one step length."""
+
+    rate: FloatArray  # (n,) capacity / (gamma step) [W m-2 K-1]
+    conductance: FloatArray  # (n + 1,) [W m-2 K-1]
+    pivot: FloatArray  # (n,) reciprocal pivots of the elimination [m2 K W-1]
+    influence: FloatArray  # (2, n) cell temperatures per kelvin of the exterior and of the interior face [-]
+    exchange: FloatArray  # (2, 2) flux into the wall per kelvin of either face [W m-2 K-1]
+    stiff: NDArray[np.bool_]  # (n,) cells that relax within a step
+    lag: FloatArray  # (n,) a cell's own relaxation over the stage's span [-]
+
+
+class Outside(NamedTuple):
+    """What acts on the exterior face, at samples (t) and orientations (o)."""
+
+    irradiance: FloatArray  # (t, o) solar [W m-2]
+    longwave: FloatArray  # (t, o) irradiance from sky and ground [W m-2]
+    film: FloatArray  # (t, o) forced [W m-2 K-1]
+    free: FloatArray  # (o,) free film cubed per kelvin [W3 m-6 K-4]
+    air: FloatArray  # (t,) [K]
+    emissivity: float
+    latent: FloatArray = np.zeros((1, 1))  # (t, o) vapour exchange [W m-2 Pa-1]; one row: a dry surface
+    vapour: FloatArray = np.zeros(0)  # (t,) pressure in the air [Pa]
+
+
+class Inside(NamedTuple):
+    """What acts on the interior face."""
+
+    air: FloatArray  # (t,) [K]
+    radiant: FloatArray  # (t,) [K]
+    film: FloatArray  # (t,) forced [W m-2 K-1]
+    free: float  # free film cubed per kelvin [W3 m-6 K-4]
+    emissivity: float
+
+
+class Columns(NamedTuple):
+    """State of all columns, updated in place."""
+
+    cells: FloatArray  # (n, m) [C]
+    faces: FloatArray  # (2, m) exterior, interior [C]
+    films: FloatArray  # (2, m) total films [W m-2 K-1]
+    heat: FloatArray  # (2, m) heat that has entered through each face [J m-2]
+    orientation: NDArray[np.int64]  # (m,)
+    absorptance: FloatArray  # (m,)
+
+
+class Work(NamedTuple):
+    """One block of l lanes, each a column, on its way through a step."""
+
+    now: FloatArray  # (n, l) cells at the start of the step [C]
+    first: FloatArray  # (n, l) their change in the first stage [K]
+    star: FloatArray  # (n, l) right side of the second stage [C]
+    cells: FloatArray  # (n, l) cells of the stage that is being solved [C]
+    kept: FloatArray  # (n, l) cells of the second stage, while the step is damped for some lanes [C]
+    load: FloatArray  # (12, l) what acts on the exterior face, and scratch
+    faces: FloatArray  # (2, l) at the start of the step [C]
+    ends: FloatArray  # (2, l) of the stage that is being solved [C]
+    trial: FloatArray  # (2, l) of the second stage, while the step is damped for some lanes [C]
+    films: FloatArray  # (2, l) [W m-2 K-1]
+    flux: FloatArray  # (6, l) into the wall through both faces, of stages one, two and damped [W m-2]
