@@ -53,7 +53,7 @@ def test_the_days_are_as_the_report_words_them() -> None:
     assert abs(winter.air_temperature[0] - kelvin_from_fahrenheit(40.0)) < 2.0
     assert abs(summer.air_temperature[0] - kelvin_from_fahrenheit(65.0)) < 0.5
     assert winter.air_temperature[0] < fall.air_temperature[0] < summer.air_temperature[0]
-    assert winter.cloud_cover[0] <= 0.1 < fall.cloud_cover[0] < 0.6 < 0.9 <= summer.cloud_cover[0]
+    assert winter.cloud_cover[0] <= 0.1 < fall.cloud_cover[0] < 0.65 < 0.9 <= summer.cloud_cover[0]
     assert winter.wind_speed[0] > 5.0 > 1.5 > max(summer.wind_speed[0], fall.wind_speed[0])
 
 
