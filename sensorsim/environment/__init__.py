@@ -1,7 +1,7 @@
 """What drives a surface from outside: weather read from files, the sun, the sky, the ground and the air in between.
 
-`read_weather` reads a station's record, `build_environment` adds sun and sky on a uniform time grid for the thermal
-model, and `Environment.at` gives the state at one moment for drawing a frame.
+`read_weather` reads a station's record, an EPW or a TMY3 file, `build_environment` adds sun and sky on a uniform time
+grid for the thermal model, and `Environment.at` gives the state at one moment for drawing a frame.
 """
 
 from sensorsim.environment.air_mass import relative_air_mass
@@ -13,6 +13,13 @@ from sensorsim.environment.ground import GROUND_ALBEDO, SNOW_MAXIMUM_TEMPERATURE
 from sensorsim.environment.humidity import saturation_vapour_pressure, vapour_density, vapour_pressure
 from sensorsim.environment.near_infrared import NearInfrared, near_infrared
 from sensorsim.environment.night import NIGHT_GLOW, twilight_irradiance
+from sensorsim.environment.perez_sky import (
+    SkyBrightness,
+    circumsolar_irradiance,
+    perez_irradiance,
+    sky_brightness,
+)
+from sensorsim.environment.place_check import check_place, great_circle_distance, place_mismatch
 from sensorsim.environment.quadrants import (
     QUADRANT_AZIMUTH,
     QUADRANT_NAMES,
@@ -57,6 +64,7 @@ __all__ = [
     "EnvironmentSample",
     "NearInfrared",
     "Site",
+    "SkyBrightness",
     "SunPosition",
     "Sunlight",
     "Transmittance",
@@ -65,19 +73,25 @@ __all__ = [
     "band_sky",
     "band_transmittance",
     "build_environment",
+    "check_place",
+    "circumsolar_irradiance",
     "circumsolar_share",
     "clear_sky_emissivity",
     "clear_sky_irradiance_dilley",
     "clear_sky_irradiance_prata",
     "clear_sunlight",
+    "great_circle_distance",
     "ground_albedo",
     "linke_turbidity",
     "near_infrared",
+    "perez_irradiance",
+    "place_mismatch",
     "quadrant_irradiance",
     "read_weather",
     "relative_air_mass",
     "resample_weather",
     "saturation_vapour_pressure",
+    "sky_brightness",
     "sky_irradiance",
     "sky_temperature",
     "sun_position",

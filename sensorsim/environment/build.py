@@ -7,15 +7,18 @@ from datetime import date, datetime, time, timedelta
 import numpy as np
 from numpy.typing import NDArray
 
-from sensorsim.constants import SECONDS_PER_DAY, SECONDS_PER_HOUR
+from sensorsim.constants import SECONDS_PER_DAY, SECONDS_PER_HOUR, STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.environment.environment import Environment
 from sensorsim.environment.ground import ground_albedo
 from sensorsim.environment.humidity import vapour_pressure
+from sensorsim.environment.measured_sunlight import measured_sunlight
 from sensorsim.environment.near_infrared import NearInfrared, near_infrared
+from sensorsim.environment.perez_sky import SkyBrightness, sky_brightness
 from sensorsim.environment.quadrants import circumsolar_share, quadrant_irradiance
 from sensorsim.environment.sun import Sunlight, SunPosition, clear_sunlight, sun_position, sunlight_under_cloud
 from sensorsim.environment.thermal_sky import sky_temperature
-from sensorsim.environment.weather import Weather, resample_weather
+from sensorsim.environment.typical_year import unroll_typical_year
+from sensorsim.environment.weather import Weather, cut_weather, resample_weather
 from sensorsim.errors import InputError
 
 FloatArray = NDArray[np.float64]
@@ -28,6 +31,7 @@ class _Light:
     position: SunPosition
     broadband: Sunlight
     quadrant: FloatArray
+    brightness: SkyBrightness
     near: NearInfrared
 
 
@@ -43,7 +47,8 @@ def build_environment(
 
     Parameters
     ----------
-    weather : covers the whole of it
+    weather : covers the whole of it; a typical year covers any. Where it has measured sunlight or infrared
+        radiation of the sky, these are taken, else sun and sky are modelled from cloud cover, air and humidity
     image_day : local date, standard time
     lead_in_days : [day] history before the image day, a whole number of steps
     step : [s] a whole number of them makes a day
@@ -56,19 +61,20 @@ def build_environment(
     lead_in = _lead_in_steps(weather, lead_in_days, step)
     image_start = datetime.combine(image_day, time(), weather.site.time_zone)
     start = image_start - timedelta(seconds=lead_in * step)
+    if weather.typical_year:
+        weather = unroll_typical_year(weather, start=start, image_start=image_start)
     _require_cover(weather, start, image_start)
     grid: FloatArray = np.arange(lead_in + round(SECONDS_PER_DAY / step) + 1, dtype=np.float64) * step
     series = resample_weather(weather, grid + (start - weather.start).total_seconds())
-    return _assemble(series, grid, start=start, image_start=image_start, step=step, visibility=visibility)
+    end = image_start + timedelta(days=1)
+    light = _light(cut_weather(weather, start, end), series)
+    return _assemble(series, light, start=start, image_start=image_start, step=step, visibility=visibility)
 
 
 def _assemble(
-    series: Weather, grid: FloatArray, *, start: datetime, image_start: datetime, step: float, visibility: float
+    series: Weather, light: _Light, *, start: datetime, image_start: datetime, step: float, visibility: float
 ) -> Environment:
-    """Add sun, sky and ground to the weather on the grid [s since start]."""
-    local = np.datetime64(start.replace(tzinfo=None), "ms") + np.round(grid * 1000.0).astype("timedelta64[ms]")
-    utc = local - np.timedelta64(round(series.site.utc_offset * SECONDS_PER_HOUR * 1000.0), "ms")
-    light = _light(series, local, utc)
+    """Put weather, sun, sky and ground on the grid together."""
     vapour = vapour_pressure(series.air_temperature, series.relative_humidity)
     return Environment(
         name=series.name,
@@ -76,7 +82,7 @@ def _assemble(
         start=start,
         image_start=image_start,
         step=step,
-        time=grid,
+        time=series.time - series.time[0],
         air_temperature=series.air_temperature,
         relative_humidity=series.relative_humidity,
         vapour_pressure=vapour,
@@ -92,23 +98,40 @@ def _assemble(
         beam_irradiance=light.broadband.beam,
         diffuse_irradiance=light.broadband.diffuse,
         quadrant_irradiance=light.quadrant,
-        sky_temperature=sky_temperature(series.air_temperature, vapour, series.cloud_cover),
+        circumsolar_brightness=light.brightness.circumsolar,
+        horizon_brightness=light.brightness.horizon,
+        sky_temperature=_sky_temperature(series, vapour),
         nir_beam=light.near.beam,
         nir_quadrant=light.near.quadrant,
     )
 
 
-def _light(series: Weather, local: NDArray[np.datetime64], utc: NDArray[np.datetime64]) -> _Light:
+def _light(weather: Weather, series: Weather) -> _Light:
+    """Sun and daylight at the times of `series`, which is `weather` on a finer grid."""
+    begin = np.datetime64(series.start.replace(tzinfo=None), "ms")
+    local = begin + np.round(series.time * 1000.0).astype("timedelta64[ms]")
+    utc = local - np.timedelta64(round(series.site.utc_offset * SECONDS_PER_HOUR * 1000.0), "ms")
     position = sun_position(series.site, utc)
     clear = clear_sunlight(series.site, position, local)
-    cloudy = sunlight_under_cloud(clear, position.elevation, series.cloud_cover)
-    share = circumsolar_share(cloudy.beam, cloudy.extraterrestrial)
+    if weather.direct_normal is None and weather.global_horizontal is None:
+        light = sunlight_under_cloud(clear, position.elevation, series.cloud_cover)
+    else:
+        light = measured_sunlight(weather, series.time + (series.start - weather.start).total_seconds(), clear)
+    share = circumsolar_share(light.beam, light.extraterrestrial)
     return _Light(
         position=position,
-        broadband=cloudy,
-        quadrant=quadrant_irradiance(cloudy.diffuse, position.azimuth, share),
-        near=near_infrared(clear, cloudy, position, series.cloud_cover, share),
+        broadband=light,
+        quadrant=quadrant_irradiance(light.diffuse, position.azimuth, share),
+        brightness=sky_brightness(light, position),
+        near=near_infrared(clear, light, position, series.cloud_cover, share),
     )
+
+
+def _sky_temperature(series: Weather, vapour: FloatArray) -> FloatArray:
+    """Temperature (n,) [K] of the black hemisphere that radiates like the sky, measured or modelled."""
+    if series.sky_infrared is None:
+        return sky_temperature(series.air_temperature, vapour, series.cloud_cover)
+    return np.asarray((series.sky_infrared / STEFAN_BOLTZMANN_CONSTANT) ** 0.25, dtype=np.float64)
 
 
 def _lead_in_steps(weather: Weather, lead_in_days: float, step: float) -> int:

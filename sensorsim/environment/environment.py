@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.environment.perez_sky import SkyBrightness
 from sensorsim.environment.sample import EnvironmentSample
 from sensorsim.environment.site import Site
 from sensorsim.errors import InputError
@@ -41,9 +42,16 @@ class Environment:
         FloatArray  # (n,) [W m-2] on the horizontal, zero in twilight, which carries no heat to speak of
     )
     quadrant_irradiance: FloatArray  # (n, 4) [W m-2] its parts from the N, E, S and W quarters of the sky
+    circumsolar_brightness: FloatArray  # (n,) [-] F1 of [Perez1990], share of the diffuse from around the sun
+    horizon_brightness: FloatArray  # (n,) [-] F2 of [Perez1990], of the horizon against the dome
     sky_temperature: FloatArray  # (n,) [K] black hemisphere, all long wavelengths
     nir_beam: FloatArray  # (n,) [W m-2] normal to the sun, 0.8-1.1 um
     nir_quadrant: FloatArray  # (n, 4) [W m-2] diffuse on the horizontal, 0.8-1.1 um, with twilight and night glow
+
+    @property
+    def sky_brightness(self) -> SkyBrightness:
+        """How the diffuse light leans to the sun and to the horizon."""
+        return SkyBrightness(circumsolar=self.circumsolar_brightness, horizon=self.horizon_brightness)
 
     @property
     def image_window(self) -> slice:

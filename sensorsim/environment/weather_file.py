@@ -1,82 +1,42 @@
-"""Reading weather from CSV: a commented header that names the site, then one row per sample.
+"""Reading weather, whatever the kind of file: a station's CSV, an EnergyPlus weather file (EPW), a TMY3 file.
 
-Header lines begin with `#`. Lines `# key: value` with the keys of SITE_KEYS describe the site, `# note: ...` lines
-are kept as notes, all others are remarks for the reader. Units are in the column names.
+The kind is told from the file's first lines, not from its name.
 """
 
-import csv
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from datetime import datetime, timedelta
 from pathlib import Path
 
-import numpy as np
-
-from sensorsim.environment.site import Site
-from sensorsim.environment.weather import GROUND_STATES, FloatArray, Weather
+from sensorsim.environment.epw_file import is_epw, read_epw
+from sensorsim.environment.station_file import read_station
+from sensorsim.environment.tmy3_file import is_tmy3, read_tmy3
+from sensorsim.environment.weather import Weather
 from sensorsim.errors import InputError
 from sensorsim.resources import assets_folder
-from sensorsim.units import kelvin_from_celsius
-
-SITE_KEYS = ("site", "longitude_deg", "latitude_deg", "altitude_m", "utc_offset_h")
-# Least and greatest value that a column may hold, in the file's own unit.
-LIMITS: Mapping[str, tuple[float, float]] = {
-    "air_temperature_C": (-90.0, 60.0),
-    "relative_humidity_percent": (0.0, 100.0),
-    "wind_speed_m_s": (0.0, 120.0),
-    "wind_direction_deg": (0.0, 360.0),
-    "cloud_cover_percent": (0.0, 100.0),
-    "precipitation_mm_h": (0.0, 400.0),
-}
-SITE_LIMITS: Mapping[str, tuple[float, float]] = {
-    "longitude_deg": (-180.0, 180.0),
-    "latitude_deg": (-90.0, 90.0),
-    "altitude_m": (-430.0, 9000.0),
-    "utc_offset_h": (-12.0, 14.0),
-}
-COLUMNS = ("time", *LIMITS, "ground_state")
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
-    line: int
-    cells: Mapping[str, str]
-
-
-def read_weather(name_or_path: str | Path) -> Weather:
+def read_weather(name_or_path: str | Path, *, typical_year: bool | None = None) -> Weather:
     """Read the weather of one file.
 
     Parameters
     ----------
-    name_or_path : 'winter', 'summer', 'fall', or the ISO date of one of the three days, or the path of a CSV file.
+    name_or_path : 'winter', 'summer', 'fall', or the ISO date of one of the three days, or the path of a file
+    typical_year : of an EPW or TMY3 file: True if only its months and days count and it stands for any year, False if
+        it is the weather of its own dates; None lets the file tell, by months from one year or from several
 
     Raises
     ------
-    InputError : no such file; a missing column; a value that is no number, not finite or out of range; a time
-        without UTC offset; times that do not ascend in equal steps.
+    InputError : no such file; a missing column; a value that is missing, no number, not finite or out of range; a
+        time without UTC offset; times that do not ascend in equal steps; a clock that cannot be that of the place.
     """
     path = _find(name_or_path)
-    header, rows = _split(path)
-    site = _site(path, header)
-    times = [_time(path, row).astimezone(site.time_zone) for row in rows]
-    _require_uniform(path, rows, times)
-    numbers = {column: np.array([_number(path, row, column) for row in rows]) for column in LIMITS}
-    return Weather(
-        name=path.stem.split("_")[0] if path.parent == assets_folder() / "weather" else path.stem,
-        file=path,
-        notes=tuple(value for key, value in header if key == "note"),
-        site=site,
-        start=times[0],
-        time=_seconds(times),
-        air_temperature=np.vectorize(kelvin_from_celsius, otypes=[np.float64])(numbers["air_temperature_C"]),
-        relative_humidity=numbers["relative_humidity_percent"] / 100.0,
-        wind_speed=numbers["wind_speed_m_s"],
-        wind_direction=numbers["wind_direction_deg"],
-        cloud_cover=numbers["cloud_cover_percent"] / 100.0,
-        precipitation=numbers["precipitation_mm_h"],
-        ground_state=np.array([_ground_state(path, row) for row in rows], dtype=np.str_),
-    )
+    text = _text(path)
+    if is_epw(text):
+        return read_epw(path, text, typical_year)
+    if is_tmy3(text):
+        return read_tmy3(path, text, typical_year)
+    if typical_year is not None:
+        problem = "neither EPW nor TMY3: its times carry their own years"
+        raise InputError(path, "typical_year", typical_year, problem, "leave it out")
+    return read_station(path, text)
 
 
 def _find(name_or_path: str | Path) -> Path:
@@ -85,108 +45,18 @@ def _find(name_or_path: str | Path) -> Path:
     path = shipped.get(str(name_or_path), Path(name_or_path))
     if not path.is_file():
         names = ", ".join(shipped)
-        raise InputError(
-            "weather", "name", str(name_or_path), "no such file or name", f"give a CSV file or one of {names}"
-        )
+        remedy = f"give a file (CSV, EPW or TMY3) or one of {names}"
+        raise InputError("weather", "name", str(name_or_path), "no such file or name", remedy)
     return path
 
 
-def _split(path: Path) -> tuple[list[tuple[str, str]], list[_Row]]:
-    """Header as (key, value) pairs and rows as texts by column, with the line each stands on."""
-    header: list[tuple[str, str]] = []
-    table: list[tuple[int, str]] = []
-    for line, text in enumerate(_text(path).splitlines(), start=1):
-        if text.startswith("#"):
-            key, found, value = text.lstrip("# ").partition(":")
-            header += [(key.strip(), value.strip())] if found else []
-        elif text.strip():
-            table.append((line, text))
-    columns = [cell.strip() for cell in next(csv.reader([table[0][1]]))] if table else []
-    for column in COLUMNS:
-        if column not in columns:
-            raise InputError(path, "columns", columns, f"column {column} is missing", "add it to every row")
-    rows = [_row(path, line, text, columns) for line, text in table[1:]]
-    if len(rows) < 2:
-        raise InputError(path, "rows", len(rows), "too few samples", "give at least two rows")
-    return header, rows
-
-
 def _text(path: Path) -> str:
+    """Text of a file; EPW and TMY3 name their places in Latin-1 at times."""
+    data = path.read_bytes()
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        text = data.decode("latin-1")
+        if is_epw(text) or is_tmy3(text):
+            return text
         raise InputError(path, "byte", error.start, "not UTF-8 text", "save the file as UTF-8") from None
-
-
-def _row(path: Path, line: int, text: str, columns: list[str]) -> _Row:
-    cells = [cell.strip() for cell in next(csv.reader([text]))]
-    if len(cells) != len(columns):
-        raise InputError(f"{path}:{line}", "row", text, f"{len(cells)} cells", f"give {len(columns)}, one per column")
-    return _Row(line, dict(zip(columns, cells, strict=True)))
-
-
-def _site(path: Path, header: list[tuple[str, str]]) -> Site:
-    found = dict(header)
-    for key in SITE_KEYS:
-        if key not in found:
-            raise InputError(path, key, None, "the header lacks it", f"add a line '# {key}: ...'")
-    value = {key: _bounded(str(path), key, found[key], SITE_LIMITS[key]) for key in SITE_LIMITS}
-    return Site(
-        name=found["site"],
-        longitude=value["longitude_deg"],
-        latitude=value["latitude_deg"],
-        altitude=value["altitude_m"],
-        utc_offset=value["utc_offset_h"],
-    )
-
-
-def _time(path: Path, row: _Row) -> datetime:
-    text, where = row.cells["time"], f"{path}:{row.line}"
-    try:
-        time = datetime.fromisoformat(text)
-    except ValueError:
-        raise InputError(where, "time", text, "not an ISO 8601 time", "write it as 1976-02-07T10:00:00-05:00") from None
-    if time.tzinfo is None:
-        raise InputError(where, "time", text, "no UTC offset", f"append one, as in {text}-05:00")
-    return time
-
-
-def _require_uniform(path: Path, rows: list[_Row], times: list[datetime]) -> None:
-    interval = times[1] - times[0]
-    for row, before, now in zip(rows[1:], times, times[1:], strict=False):
-        where, shown = f"{path}:{row.line}", row.cells["time"]
-        if now <= before:
-            raise InputError(where, "time", shown, "does not come after the row before", "sort the rows by time")
-        if now - before != interval:
-            step = f"{now - before} after the row before, where the file began with {interval}"
-            raise InputError(where, "time", shown, step, "fill the gap or use one interval")
-
-
-def _seconds(times: list[datetime]) -> FloatArray:
-    return np.array([(time - times[0]) / timedelta(seconds=1) for time in times])
-
-
-def _number(path: Path, row: _Row, column: str) -> float:
-    return _bounded(f"{path}:{row.line}", column, row.cells[column], LIMITS[column])
-
-
-def _bounded(where: str, entry: str, text: str, limits: tuple[float, float]) -> float:
-    low, high = limits
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError(where, entry, text, "not a number", f"give one from {low:g} to {high:g}") from None
-    if not math.isfinite(value):
-        raise InputError(where, entry, text, "not finite", f"give a number from {low:g} to {high:g}")
-    if not low <= value <= high:
-        raise InputError(where, entry, text, "out of range", f"give a number from {low:g} to {high:g}")
-    return value
-
-
-def _ground_state(path: Path, row: _Row) -> str:
-    text = row.cells["ground_state"]
-    if text not in GROUND_STATES:
-        raise InputError(
-            f"{path}:{row.line}", "ground_state", text, "unknown", f"give one of {', '.join(GROUND_STATES)}"
-        )
-    return text
