@@ -34,8 +34,8 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     orientations = orientation_set(settings.orientations)
-    soil = ground_temperature(environment, ground)
-    exposure = expose(environment, orientations.normal, soil)
+    soil = ground_temperature(environment, ground, sky=settings.sky)
+    exposure = expose(environment, orientations.normal, soil, sky=settings.sky)
     record = _slices(environment, settings)
 
     def solve(wall: WallType) -> FloatArray:
@@ -70,7 +70,10 @@ def _solve_wall(
 ) -> FloatArray:
     """Coefficients (t, o, p) [K] of one wall type."""
     reflectances = np.asarray(settings.reflectances, dtype=np.float64)
-    outside = outside_of(environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness)
+    outside = outside_of(
+        environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness,
+        correlation=settings.convection, length=wall.characteristic_length,
+    )  # fmt: skip
     inside = build_interior(
         wall.interior, environment.air_temperature, environment.wind_speed, environment.step, wall.interior_emissivity
     )

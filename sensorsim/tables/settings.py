@@ -7,6 +7,7 @@ import numpy as np
 
 from sensorsim.errors import InputError
 from sensorsim.tables.orientations import LAYOUTS
+from sensorsim.thermal import CORRELATIONS, SKIES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,6 +20,8 @@ class BakeSettings:
     step: float = 300.0  # [s]
     slice_interval: float = 900.0  # [s] between the times that are kept
     lead_in_days: float = 3.0  # before the image day
+    sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
+    convection: str = "mowitt"  # correlation of the forced film
 
     def __post_init__(self) -> None:
         """Refuse what cannot be solved or fitted."""
@@ -32,6 +35,8 @@ class BakeSettings:
             ),
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
             ("slice_interval", _not_multiple(self.slice_interval, self.step), "use a multiple of the step"),
+            ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
+            ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
             ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
         ):
             if broken:
@@ -53,7 +58,9 @@ def _not_multiple(interval: float, step: float) -> bool:
 
 
 PRESETS = {
-    "report": BakeSettings(orientations="report26"),  # the few orientations, five reflectances and quartic of 1978
+    "report": BakeSettings(
+        orientations="report26", sky="quadrants"
+    ),  # the few orientations, five reflectances and quartic of 1978
     "standard": BakeSettings(),
     "reference": BakeSettings(orientations="icosphere642", step=60.0, lead_in_days=4.0),
 }

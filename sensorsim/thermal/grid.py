@@ -69,6 +69,7 @@ def build_grid(
         heat = layer.density * layer.specific_heat
         if heat <= 0.0 or layer.thickness <= 0.0:
             pending += layer.thickness / layer.conductivity if layer.thickness > 0.0 else 0.0
+            position += layer.thickness
             continue
         root = np.sqrt(layer.conductivity / heat)
         span = layer.thickness / root

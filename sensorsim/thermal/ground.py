@@ -14,10 +14,10 @@ from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.march import march
 
 
-def ground_temperature(environment: Environment, soil: WallType) -> FloatArray:
+def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "perez") -> FloatArray:
     """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what its albedo leaves."""
     up = np.array([[0.0, 0.0, 1.0]])
-    exposure = expose(environment, up, environment.air_temperature)  # a plane that faces up sees no ground
+    exposure = expose(environment, up, environment.air_temperature, sky=sky)  # a plane that faces up sees no ground
     absorbed = exposure.irradiance * (1.0 - environment.ground_albedo)[:, None]
     outside = outside_of(environment, exposure, emissivity=soil.emissivity, roughness=soil.roughness)
     inside = build_interior(
