@@ -1,11 +1,24 @@
-"""One OpenGL context for the whole run; each test that uses it must leave it without an error."""
+"""One OpenGL context for the whole run, which each test must leave without an error; a table cache of the run's own."""
 
+import os
 from collections.abc import Iterator
 
 import moderngl
 import pytest
 
 from sensorsim.gpu import create_context
+from sensorsim.tables import CACHE_VARIABLE
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _own_table_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Tests that render share what they bake, and neither read nor leave anything in the user's cache."""
+    before = os.environ.get(CACHE_VARIABLE)
+    os.environ[CACHE_VARIABLE] = str(tmp_path_factory.mktemp("tables"))
+    yield
+    os.environ.pop(CACHE_VARIABLE)
+    if before is not None:
+        os.environ[CACHE_VARIABLE] = before
 
 
 @pytest.fixture(scope="session")

@@ -64,6 +64,8 @@ def render(
         world = build_world(
             place, find_weather(weather, moment.date()), image_day=moment.date(), settings=settings, progress=progress
         )
+    for warning in world.warnings:
+        Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend) as renderer:
         frame = take_frame(renderer, view, moment, display=display)
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -2,12 +2,14 @@
 
 import json
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from sensorsim.cli.options import AsJson, Level, SceneName
 from sensorsim.materials import load_catalogue
 from sensorsim.scene import Audit, audit_scene, load_scene
+from sensorsim.tables.assign import resolve_surface_word
 
 
 def scene(name: SceneName, level: Level = "IIIB", as_json: AsJson = False) -> None:
@@ -16,11 +18,11 @@ def scene(name: SceneName, level: Level = "IIIB", as_json: AsJson = False) -> No
     place = load_scene(name, level=level)
     names = dict(catalogue.codes)
     notes = {}
-    for word in sorted(set(place.surfaces.word.tolist())):
-        resolved, note = catalogue.resolve_word(word)
+    for word, row in zip(*np.unique(place.surfaces.word, return_index=True), strict=True):
+        resolved, note = resolve_surface_word(place, catalogue, int(row))
         names.setdefault(int(word[:2]), f"read as {catalogue.codes[resolved.code]}")
         if note:
-            notes[word] = note
+            notes[str(word)] = note
     audit = audit_scene(place, names, notes)
     if as_json:
         print(json.dumps(audit.to_dict(), indent=2))  # noqa: T201

@@ -46,6 +46,7 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         "sensorsim": __version__,
         "scene": {"name": scene.name, "level": scene.level, "files": [path.name for path in scene.files]},
         "weather": {"name": world.weather.name, "file": world.weather.file.name},
+        "warnings": list(world.warnings),
         "day": world.tables.day.isoformat(),
         "time_of_day_s": picture.time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,

@@ -49,7 +49,11 @@ class Renderer:
         self.size = sensor.size if size is None else size
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
         self.ctx = create_context(backend)
-        self._build()
+        try:
+            self._build()
+        except BaseException:
+            self.release()
+            raise
 
     def __enter__(self) -> Self:
         """The renderer itself."""
@@ -76,11 +80,12 @@ class Renderer:
         """
         if illumination is None:
             illumination = self.illuminate(time_of_day)
-        self._set_moment(time_of_day, illumination)
-        self._draw(camera)
-        planes = self._read()
-        settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
-        planes["display"] = self._display(settings)
+        with self.ctx:  # another renderer's context may have become the current one
+            self._set_moment(time_of_day, illumination)
+            self._draw(camera)
+            planes = self._read()
+            settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
+            planes["display"] = self._display(settings)
         return Picture(
             planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from datetime import date
 
-from sensorsim.environment import Environment, Weather, build_environment
+from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
+from sensorsim.tables import BakeSettings, ShadeTables, cached_tables
 from sensorsim.tables.assign import Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
 
@@ -22,6 +22,7 @@ class World:
     environment: Environment
     assignment: Assignment
     tables: ShadeTables
+    warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
 def build_world(
@@ -33,18 +34,27 @@ def build_world(
     catalogue: Catalogue | None = None,
     progress: Progress | None = None,
 ) -> World:
-    """Bake the tables of a scene for one day of the weather."""
+    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
     environment = build_environment(
         weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
     )
     assignment = assign_wall_types(scene, catalogue)
-    tables = bake_tables(
+    tables = cached_tables(
         environment,
         assignment.wall_types,
         ground=catalogue.wall_type(GROUND_CODE, "none"),
         settings=settings,
         progress=progress,
     )
-    return World(scene=scene, weather=weather, environment=environment, assignment=assignment, tables=tables)
+    site = scene.site
+    mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=site.utc_offset)
+    return World(
+        scene=scene,
+        weather=weather,
+        environment=environment,
+        assignment=assignment,
+        tables=tables,
+        warnings=() if mismatch is None else (mismatch,),
+    )

@@ -1,6 +1,7 @@
 """Coefficient matrix and lookup tables: histories solved ahead, fitted, and evaluated for any normal, wall and time."""
 
 from sensorsim.tables.bake import bake_tables
+from sensorsim.tables.cache import CACHE_VARIABLE, cache_folder, cached_tables
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.lookup_table import LookupTable
 from sensorsim.tables.orientations import LAYOUTS, OrientationSet, orientation_set
@@ -8,6 +9,7 @@ from sensorsim.tables.settings import PRESETS, BakeSettings, preset
 from sensorsim.tables.shade import evaluate_polynomial, surface_temperature
 
 __all__ = [
+    "CACHE_VARIABLE",
     "LAYOUTS",
     "PRESETS",
     "BakeSettings",
@@ -15,6 +17,8 @@ __all__ = [
     "OrientationSet",
     "ShadeTables",
     "bake_tables",
+    "cache_folder",
+    "cached_tables",
     "evaluate_polynomial",
     "fit_polynomials",
     "orientation_set",

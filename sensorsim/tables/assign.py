@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.errors import InputError
-from sensorsim.materials import Catalogue, WallType, nir_reflectance
+from sensorsim.materials import Catalogue, MaterialWord, WallType, nir_reflectance
 from sensorsim.scene import Scene
 from sensorsim.tables.orientations import FloatArray, IntArray
 
@@ -29,13 +29,8 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue) -> Assignment:
     wall_type = np.zeros(count, dtype=np.int64)
     reflectance, nir, emissivity = np.zeros(count), np.zeros(count), np.zeros(count)
     for row in range(count):
-        try:
-            word, _ = catalogue.resolve_word(str(surfaces.word[row]))
-            wall = catalogue.wall_type(word.code, str(surfaces.interior[row]))
-        except InputError as error:
-            feature = scene.features[int(surfaces.feature[row])]
-            where = f"scene {scene.name}, feature {feature.number}"
-            raise InputError(where, error.entry, error.value, error.problem, error.remedy) from error
+        word, _ = resolve_surface_word(scene, catalogue, row)
+        wall = catalogue.wall_type(word.code, str(surfaces.interior[row]))
         wall_type[row] = rows.setdefault(wall, len(rows))
         reflectance[row] = word.reflectance
         nir[row] = nir_reflectance(catalogue.material(word.code), word.reflectance)
@@ -43,3 +38,13 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue) -> Assignment:
     return Assignment(
         wall_types=tuple(rows), wall_type=wall_type, reflectance=reflectance, nir_reflectance=nir, emissivity=emissivity
     )
+
+
+def resolve_surface_word(scene: Scene, catalogue: Catalogue, row: int) -> tuple[MaterialWord, str | None]:
+    """Word of one surface with a code of the catalogue, and its note; InputError names the scene's file and feature."""
+    try:
+        return catalogue.resolve_word(str(scene.surfaces.word[row]))
+    except InputError as error:
+        where = f"{scene.files[0]}, feature {scene.features[int(scene.surfaces.feature[row])].number}"
+        problem = f"{error.problem} in {error.where}"
+        raise InputError(where, error.entry, error.value, problem, error.remedy) from error

@@ -8,6 +8,7 @@ import numpy as np
 
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.environment import Environment
+from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.orientations import FloatArray, orientation_set
@@ -60,9 +61,12 @@ def bake_tables(
 
 def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
     """Samples from midnight to midnight of the image day that are kept."""
-    first = environment.image_window.start
+    stride = settings.slice_interval / environment.step
+    if round(stride) < 1 or abs(stride - round(stride)) > 1e-9:
+        problem = f"no multiple of the environment's step of {environment.step:g} s"
+        raise InputError("bake settings", "slice_interval", settings.slice_interval, problem, "give both one step")
     count = round(SECONDS_PER_DAY / settings.slice_interval)
-    return np.asarray(first + np.arange(count + 1) * round(settings.slice_interval / environment.step))
+    return np.asarray(environment.image_window.start + np.arange(count + 1) * round(stride))
 
 
 def _solve_wall(

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.errors import InputError
 from sensorsim.tables.orientations import LAYOUTS
 from sensorsim.thermal import CORRELATIONS, SKIES
@@ -30,11 +31,15 @@ class BakeSettings:
             ("reflectances", _unusable(self.reflectances), "give different values between 0 and 1"),
             (
                 "degree",
-                not 0 <= self.degree < len(self.reflectances),
-                "use 0 up to the number of reflectances less one",
+                not (isinstance(self.degree, int) and 0 <= self.degree < len(self.reflectances)),
+                "use a whole number from 0 up to the number of reflectances less one",
             ),
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
-            ("slice_interval", _not_multiple(self.slice_interval, self.step), "use a multiple of the step"),
+            (
+                "slice_interval",
+                not (_is_whole(self.slice_interval, self.step) and _is_whole(SECONDS_PER_DAY, self.slice_interval)),
+                "use a multiple of the step that divides the day",
+            ),
             ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
             ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
             ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
@@ -53,8 +58,11 @@ def _unusable(reflectances: tuple[float, ...]) -> bool:
     return values.size == 0 or not inside or np.unique(values).size != values.size
 
 
-def _not_multiple(interval: float, step: float) -> bool:
-    return not (step > 0 and interval > 0 and abs(interval / step - round(interval / step)) < 1e-9)
+def _is_whole(whole: float, part: float) -> bool:
+    """Whether `part` goes into `whole` without a rest; never for what is not finite and above zero."""
+    if not (0.0 < part < np.inf and 0.0 < whole < np.inf):
+        return False
+    return round(whole / part) >= 1 and abs(whole / part - round(whole / part)) < 1e-9
 
 
 PRESETS = {

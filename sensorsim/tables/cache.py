@@ -1,0 +1,122 @@
+"""Baked tables on disk, found by a hash of everything that made them: weather, wall types, settings and the code.
+
+A file is written whole or not at all. It carries the hash of its own arrays; one that is damaged, cut off or foreign
+is baked again, never trusted. Folder: SENSORSIM_CACHE (or `off`), else `sensorsim` in the user's cache folder.
+"""
+
+import hashlib
+import io
+import os
+import zipfile
+from collections.abc import Sequence
+from dataclasses import fields
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import Any
+
+import numpy as np
+
+from sensorsim.environment import Environment
+from sensorsim.materials import WallType
+from sensorsim.tables.bake import Progress, bake_tables
+from sensorsim.tables.coefficients import ShadeTables
+from sensorsim.tables.orientations import orientation_set
+from sensorsim.tables.settings import BakeSettings
+
+CACHE_VARIABLE = "SENSORSIM_CACHE"
+KEPT = 64  # files; the ones not used for longest go first
+_ARRAYS = ("time_of_day", "coefficients", "ground_temperature")
+_CODE = ("constants.py", "environment", "thermal", "tables")
+
+
+def cached_tables(
+    environment: Environment,
+    wall_types: Sequence[WallType],
+    *,
+    ground: WallType,
+    settings: BakeSettings,
+    progress: Progress | None = None,
+) -> ShadeTables:
+    """The same as `bake_tables`, from disk where it has been baked before with the same inputs and code."""
+    folder = cache_folder()
+    if folder is None:
+        return bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
+    path = folder / f"{inputs_digest(environment, wall_types, ground, settings)}.npz"
+    arrays = _read(path)
+    if arrays is not None:
+        return ShadeTables(
+            day=environment.image_start.date(),
+            wall_types=tuple(wall_types),
+            orientations=orientation_set(settings.orientations),
+            settings=settings,
+            **arrays,
+        )
+    tables = bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
+    _write(path, tables)
+    return tables
+
+
+def cache_folder() -> Path | None:
+    """Where tables are kept, or None where that is switched off."""
+    chosen = os.environ.get(CACHE_VARIABLE, "")
+    if chosen.lower() == "off":
+        return None
+    home = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(chosen) if chosen else Path(home) / "sensorsim"
+
+
+def inputs_digest(
+    environment: Environment, wall_types: Sequence[WallType], ground: WallType, settings: BakeSettings
+) -> str:
+    """SHA-256 of all that decides the tables."""
+    digest = hashlib.sha256()
+    for field in fields(environment):
+        value = getattr(environment, field.name)
+        digest.update(field.name.encode())
+        digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
+    digest.update(repr((tuple(wall_types), ground, settings)).encode())
+    package = Path(__file__).resolve().parent.parent
+    for name in _CODE:
+        source = package / name
+        for path in sorted(source.glob("*.py")) if source.is_dir() else [source]:
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _arrays_digest(arrays: dict[str, Any]) -> str:
+    digest = hashlib.sha256()
+    for name in _ARRAYS:
+        digest.update(f"{name}{arrays[name].dtype}{arrays[name].shape}".encode())
+        digest.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return digest.hexdigest()
+
+
+def _read(path: Path) -> dict[str, Any] | None:
+    """Arrays of a cache file, or None where there is none that can be trusted."""
+    try:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as file:
+            arrays = {name: file[name] for name in _ARRAYS}
+            sound = str(file["digest"]) == _arrays_digest(arrays)
+        os.utime(path)
+    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile):
+        return None
+    return arrays if sound else None
+
+
+def _write(path: Path, tables: ShadeTables) -> None:
+    """Put a cache file in place; a folder that cannot be written is no error, only no cache."""
+    arrays = {name: getattr(tables, name) for name in _ARRAYS}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with NamedTemporaryFile(dir=path.parent, suffix=".partial", delete=False) as file:
+            np.savez(file, digest=np.array(_arrays_digest(arrays)), **arrays)
+        Path(file.name).replace(path)
+        _forget_old(path.parent)
+    except OSError:
+        return
+
+
+def _forget_old(folder: Path) -> None:
+    files = sorted(folder.glob("*.npz"), key=lambda path: path.stat().st_mtime, reverse=True)
+    for path in files[KEPT:]:
+        path.unlink(missing_ok=True)
