@@ -1,6 +1,9 @@
 """What the march takes in: a wall's factored linear part, its boundary conditions on both faces, its state.
 
-Named tuples, because compiled code takes them as they are.
+Named tuples, because compiled code takes them as they are. Films join forced and free convection by their cubes,
+h = (forced^3 + free |dT|)^(1/3) [Churchill1977]; the march takes one Newton step of the cube root along with each step
+of the face temperatures. Its state is in degrees Celsius, so that a metal skin's conductance of 1e6 W m-2 K-1
+multiplies the rounding errors of 20 and not of 300.
 """
 
 from typing import NamedTuple
@@ -70,4 +73,5 @@ class Work(NamedTuple):
     ends: FloatArray  # (2, l) of the stage that is being solved [C]
     trial: FloatArray  # (2, l) of the second stage, while the step is damped for some lanes [C]
     films: FloatArray  # (2, l) [W m-2 K-1]
+    held: FloatArray  # (2, l) of the second stage, while the step is damped for some lanes [W m-2 K-1]
     flux: FloatArray  # (6, l) into the wall through both faces, of stages one, two and damped [W m-2]

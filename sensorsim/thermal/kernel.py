@@ -5,13 +5,10 @@ and alike for all columns, condensed onto the faces; their balances are not line
 
 Steps: two-stage, second-order, L-stable SDIRK with gamma = 1 - 1/sqrt(2) [Alexander1977]; inputs are linear between
 samples. No method of second order keeps every answer monotone [Bolley1978], and a thin metal skin would overshoot the
-sunrise: columns in which a stiff cell runs past the temperature that it is drawn to, or leaves the range that its
-boundaries and past allow, take that step by backward Euler instead, which can do neither.
+sunrise: columns in which a stiff cell at a face runs past the temperature that it is drawn to, or any leaves the range
+that boundaries and past allow, take that step by backward Euler instead, which can do neither.
 
-Faces: films join forced and free convection by their cubes [Churchill1977]; the cube root takes one Newton step along
-with each step of the temperatures, because it starts from the last stage's value. Saturation pressure over water is
-the polynomial of [Lowe1977], which vectorises where an exponential does not. Temperatures are in degrees Celsius, so
-that a metal skin's conductance of 1e6 W m-2 K-1 multiplies the rounding errors of 20 and not of 300.
+Saturation pressure over water is the polynomial of [Lowe1977], which vectorises where an exponential does not.
 """
 
 import numpy as np
@@ -29,8 +26,8 @@ ABSORBED, FILM_CUBED, FREE, AIR, EXCHANGE, VAPOUR, LATENT, LATENT_SLOPE, LEFT, R
 LANES = 32
 SIGMA = STEFAN_BOLTZMANN_CONSTANT
 ITERATION_LIMIT = 100
-TOLERANCE = 1e-6  # [K] last move; Newton squares it, so that what is left is below 1e-10 K
-LEAST_FILM = 1e-9  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
+TOLERANCE = 1e-8  # [K] last move; Newton squares it
+LEAST_FILM = 1e-3  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
 COLDEST_WATER = -100.0  # [C] below which the saturation polynomial is held
 
 
@@ -46,7 +43,7 @@ def advance(
     failures, block, pair = 0, (n, LANES), (2, LANES)
     work = Work(
         np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros((12, LANES)),
-        np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros((6, LANES)),
+        np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros((6, LANES)),
     )  # fmt: skip
     lane, absorptance = np.zeros(LANES, dtype=np.int64), np.zeros(LANES)
     for begin in range(0, m, LANES):
@@ -54,9 +51,7 @@ def advance(
         heat = np.zeros((2, LANES))
         for k in range(first, last):
             failures += _step(work, lane, absorptance, cells, damped, outside, inside, k)
-            for face in range(2):
-                for j in range(LANES):
-                    heat[face, j] += step * work.flux[face, j]
+            heat += step * work.flux[:2]
         _give(columns, work, heat, begin)
     return failures
 
@@ -102,6 +97,7 @@ def _step(
             solves = 3
             work.kept[:] = work.cells
             work.trial[:] = work.ends
+            work.held[:] = work.films
             work.ends[:] = work.faces
         for i in range(n):
             for j in range(LANES):
@@ -125,6 +121,7 @@ def _finish(work: Work, damped: bool) -> None:
             late = (1.0 - GAMMA) * work.flux[face, j] + GAMMA * work.flux[2 + face, j]
             work.flux[face, j] = work.flux[4 + face, j] if again else late
             work.faces[face, j] = work.trial[face, j] if damped and not again else work.ends[face, j]
+            work.films[face, j] = work.held[face, j] if damped and not again else work.films[face, j]
     if damped:
         for i in range(work.now.shape[0]):
             for j in range(LANES):
@@ -163,10 +160,10 @@ def _calls_for_damping(
     """Mark the lanes that call for it: a stiff cell passed the temperature it was drawn to, or left its bounds."""
     _bound(work, lane, outside, inside, k)
     least, most, mark = work.load[LEFT], work.load[RIGHT], work.load[MARK]
-    for j in range(LANES):
-        mark[j] = 0.0
-    for i in range(work.now.shape[0]):
-        reach = 1.0 + cells.lag[i] if cells.stiff[i] else 1e9
+    mark[:] = 0.0
+    n = work.now.shape[0]
+    for i in range(n):
+        reach = 1.0 + cells.lag[i] if cells.stiff[i] and (i == 0 or i == n - 1) else 1e9
         for j in range(LANES):
             first, second = work.first[i, j], work.cells[i, j] - work.star[i, j]
             beyond = work.cells[i, j] - work.now[i, j] - reach * first  # past the balance of the first stage
@@ -243,6 +240,7 @@ def _balance(
 ) -> int:
     """Newton iteration of both faces; returns how many lanes did not converge."""
     moving = 0
+    work.load[MOVED] = 1.0
     for _ in range(ITERATION_LIMIT):
         if wet:
             _evaporate(work.load, work.ends)
@@ -271,20 +269,25 @@ def _approach(
         lift, lift_inside = load[FREE, j] * abs(gap) * inverse, free * abs(gap_inside) * inverse_inside
         h = max((2.0 * h + load[FILM_CUBED, j] * inverse + lift) * third, LEAST_FILM)
         h_inside = max((2.0 * h_inside + cubed * inverse_inside + lift_inside) * third, LEAST_FILM)
+        total = h if load[FILM_CUBED, j] + load[FREE, j] > 0.0 else 0.0
+        total_inside = h_inside if cubed + free > 0.0 else 0.0
         kelvin, kelvin_inside = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
         cube = grey * kelvin * kelvin * kelvin
         cube_inside = grey_inside * kelvin_inside * kelvin_inside * kelvin_inside
-        lack = load[ABSORBED, j] + h * gap - cube * kelvin - load[LATENT, j] - a * ext + b * inn + load[LEFT, j]
-        lack_inside = radiation + h_inside * gap_inside - cube_inside * kelvin_inside
+        lack = load[ABSORBED, j] + total * gap - cube * kelvin - load[LATENT, j] - a * ext + b * inn + load[LEFT, j]
+        lack_inside = radiation + total_inside * gap_inside - cube_inside * kelvin_inside
         lack_inside += c * ext - d * inn + load[RIGHT, j]
-        slope = a + h + lift * third + 4.0 * cube + load[LATENT_SLOPE, j]
-        slope_inside = d + h_inside + lift_inside * third + 4.0 * cube_inside
+        slope = a + total + lift * third + 4.0 * cube + load[LATENT_SLOPE, j]
+        slope_inside = d + total_inside + lift_inside * third + 4.0 * cube_inside
         scale = 1.0 / (slope * slope_inside - b * c)
         move = (lack * slope_inside + b * lack_inside) * scale
         move_inside = (lack_inside * slope + c * lack) * scale
-        films[0, j], films[1, j] = h, h_inside
-        ends[0, j], ends[1, j] = max(ext + move, -ZERO_CELSIUS), max(inn + move_inside, -ZERO_CELSIUS)
-        load[MOVED, j] = abs(move) + abs(move_inside)
+        moves = load[MOVED, j] > TOLERANCE  # a lane that has settled does not know whether its neighbours have
+        films[0, j] = h if moves else films[0, j]
+        films[1, j] = h_inside if moves else films[1, j]
+        ends[0, j] = max(ext + move, -ZERO_CELSIUS) if moves else ext
+        ends[1, j] = max(inn + move_inside, -ZERO_CELSIUS) if moves else inn
+        load[MOVED, j] = abs(move) + abs(move_inside) if moves else load[MOVED, j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,8 +46,7 @@ def march(
     """
     grid = build_grid(layers, step) if grid is None else grid
     cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
-    if outside.vapour.size == 0:
-        outside = outside._replace(vapour=np.zeros_like(outside.air))
+    outside, inside = _plain_outside(outside), Inside(*(_plain(value) for value in inside))
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior = np.zeros((record.size, *shape))
@@ -72,6 +72,16 @@ def march(
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
         grid=grid,
     )
+
+
+def _plain_outside(outside: Outside) -> Outside:
+    vapour = outside.vapour if outside.vapour.size else np.zeros_like(outside.air)
+    return Outside(*(_plain(value) for value in outside._replace(vapour=vapour)))
+
+
+def _plain(value: Any) -> Any:
+    """Contiguous and of double precision: other kinds of array would each be compiled for anew."""
+    return np.require(value, np.float64, ["C", "W"]) if isinstance(value, np.ndarray) else float(value)
 
 
 def _start(
