@@ -6,8 +6,7 @@ and alike for all columns, condensed onto the faces; their balances are not line
 Steps: two-stage, second-order, L-stable SDIRK with gamma = 1 - 1/sqrt(2) [Alexander1977]; inputs are linear between
 samples. No method of second order keeps every answer monotone [Bolley1978], and a thin metal skin would overshoot the
 sunrise: columns in which a stiff cell at a face runs past the temperature that it is drawn to, or any leaves the range
-that boundaries and past allow, take that step by backward Euler instead, which can do neither.
-
+that boundaries and past allow, take that step by backward Euler, which can do neither.
 Saturation pressure over water is the polynomial of [Lowe1977], which vectorises where an exponential does not.
 """
 
@@ -15,16 +14,15 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT, ZERO_CELSIUS
+from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
+from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Work
 
 GAMMA = 1.0 - np.sqrt(0.5)
 CARRY = (1.0 - GAMMA) / GAMMA  # weight of the first stage's change in the second stage's right side
 TURN = 1e-7  # [K] overshoot that is left alone
-# Rows of a block's load.
-ABSORBED, FILM_CUBED, FREE, AIR, EXCHANGE, VAPOUR, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, MARK = range(12)
+ABSORBED, FILM_CUBED, FREE, AIR, EXCHANGE, VAPOUR, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, MARK = range(12)  # rows
 LANES = 32
-SIGMA = STEFAN_BOLTZMANN_CONSTANT
 ITERATION_LIMIT = 100
 TOLERANCE = 1e-8  # [K] last move; Newton squares it
 LEAST_FILM = 1e-3  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
@@ -87,8 +85,7 @@ def _step(
     inside: Inside, k: int,
 ) -> int:  # fmt: skip
     """One step of one block: two stages and, where lanes call for it, backward Euler; returns failed balances."""
-    n, failures, solves = work.now.shape[0], 0, 2
-    wet = outside.latent.shape[0] > 1
+    n, failures, solves, wet = work.now.shape[0], 0, 2, outside.latent.shape[0] > 1
     work.ends[:] = work.faces
     for solve in range(3):
         if solve == 2:
