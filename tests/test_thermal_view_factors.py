@@ -38,8 +38,8 @@ def test_quarters_of_the_sky_add_up_to_the_sky_and_the_sky_and_ground_to_one(kin
 
 
 def test_quarters_agree_with_rays_of_a_monte_carlo() -> None:
-    """Expected: within four standard errors of 400,000 cosine-weighted rays, for twelve normals."""
-    normals, count = np.vstack([_normals(8, seed=11), np.eye(3), -np.eye(3)[:1]]), 400_000
+    """Expected: within four standard errors of 200,000 cosine-weighted rays, for nine normals."""
+    normals, count = np.vstack([_normals(6, seed=11), np.eye(3)]), 200_000
     rng = np.random.default_rng(5)
     height = np.sqrt(rng.uniform(size=count))
     around = rng.uniform(0.0, 2.0 * np.pi, count)

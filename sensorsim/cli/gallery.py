@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from sensorsim.cli.options import AsJson, Backend, Preset, bake_progress, read_size
+from sensorsim.cli.options import AsJson, Backend, Preset, bake_progress, make_folder, read_size
 from sensorsim.study import make_gallery
 from sensorsim.tables import preset as bake_preset
 
@@ -21,6 +21,7 @@ def gallery(
 ) -> None:
     """Draw figures 19 and 21 to 27 of the report as labelled contact sheets."""
     pixels, settings = read_size(size), bake_preset(preset)
+    make_folder(out)
     with bake_progress("gallery") as progress:
         sheets = make_gallery(out, size=pixels, settings=settings, backend=backend, progress=progress)
     if as_json:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import date, datetime
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -40,6 +41,15 @@ def read_moment(text: str) -> datetime:
         raise InputError("command line", "--at", text, "no ISO 8601 date and time", remedy) from error
 
 
+def make_folder(folder: Path) -> None:
+    """Create the folder that files are to be written to, where it is not there."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        problem = f"the folder cannot be made: {error.strerror}"
+        raise InputError("command line", "--out", str(folder), problem, "name another place") from error
+
+
 def find_weather(name: str | None, day: date) -> Weather:
     """The weather asked for, else the one that comes with the package for that day."""
     return read_weather(day.isoformat() if name is None else name)
@@ -47,9 +57,10 @@ def find_weather(name: str | None, day: date) -> Weather:
 
 @contextmanager
 def bake_progress(title: str) -> Iterator[BakeProgress]:
-    """A progress bar on the error stream while tables are baked."""
+    """A progress bar on the error stream while tables are baked, where that is a terminal."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task(title, total=None)
 
         def report(name: str, done: int, total: int) -> None:

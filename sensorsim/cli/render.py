@@ -1,8 +1,9 @@
 """`sensorsim render`: one frame to disk."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -16,10 +17,11 @@ from sensorsim.cli.options import (
     SceneName,
     bake_progress,
     find_weather,
+    make_folder,
     read_moment,
     read_size,
 )
-from sensorsim.errors import InputError
+from sensorsim.errors import InputError, NumericsError
 from sensorsim.frames import Frame, take_frame, write_frame
 from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Renderer, build_world, station_camera
@@ -37,8 +39,9 @@ def render(
         str, typer.Option(help="Sensor that comes with the package (flir, lltv), or a TOML file.")
     ] = "flir",
     camera: Annotated[
-        str, typer.Option(help="Camera of the scene, or east,north,up,yaw,pitch in m and deg.")
-    ] = "tower",
+        str | None,
+        typer.Option(help="Camera of the scene, its first if left out, or east,north,up,yaw,pitch in m and deg."),
+    ] = None,
     field_of_view: Annotated[float | None, typer.Option(help="Horizontal field of view [deg].")] = None,
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; the sensor's own if left out.")] = None,
     weather: Annotated[
@@ -47,7 +50,7 @@ def render(
     planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
     plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
-    polarity: Annotated[str, typer.Option(help="white-hot or black-hot.")] = "white-hot",
+    polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     preset: Preset = "standard",
     backend: Backend = "auto",
     as_json: AsJson = False,
@@ -68,13 +71,15 @@ def render(
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend) as renderer:
         frame = take_frame(renderer, view, moment, display=display)
-    out.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(out.parent)
     files = write_frame(frame, out, planes=[name for name in planes.split(",") if name], plane_format=plane_format)
     _report(frame, files, as_json)
 
 
-def read_camera(scene: Scene, text: str, field_of_view: float | None) -> Camera:
-    """The scene's camera of that name, or one from five numbers."""
+def read_camera(scene: Scene, text: str | None, field_of_view: float | None) -> Camera:
+    """The scene's camera of that name, its first where none is named, or one from five numbers."""
+    if text is None:
+        return station_camera(scene, scene.cameras[0].name, horizontal_field_of_view=field_of_view)
     if "," in text:
         try:
             east, north, up, yaw, pitch = (float(part) for part in text.split(","))
@@ -86,9 +91,10 @@ def read_camera(scene: Scene, text: str, field_of_view: float | None) -> Camera:
     return station_camera(scene, text, horizontal_field_of_view=field_of_view)
 
 
-def _display(sensor: Sensor, window: str | None, polarity: str) -> DisplaySettings:
+def _display(sensor: Sensor, window: str | None, polarity: str | None) -> DisplaySettings:
+    chosen: Any = sensor.display.polarity if polarity is None else polarity  # DisplaySettings refuses any other word
     if window is None:
-        return DisplaySettings(polarity=polarity, level=sensor.display.level, span=sensor.display.span)  # type: ignore[arg-type]
+        return replace(sensor.display, polarity=chosen)
     try:
         cold, warm = (float(part) for part in window.split(":"))
     except ValueError as error:
@@ -96,8 +102,12 @@ def _display(sensor: Sensor, window: str | None, polarity: str) -> DisplaySettin
     if sensor.mode != "emissive":
         remedy = "leave it out for this sensor"
         raise InputError("command line", "--window", window, f"{sensor.name} sees reflected light", remedy)
-    level, span = window_from_temperatures(build_band_table(sensor.band), cold, warm)
-    return DisplaySettings(polarity=polarity, level=level, span=span)  # type: ignore[arg-type]
+    try:
+        level, span = window_from_temperatures(build_band_table(sensor.band), cold, warm)
+    except NumericsError as error:
+        remedy = "give temperatures from 150 to 700 K"
+        raise InputError("command line", "--window", window, "outside of the sensor's table", remedy) from error
+    return DisplaySettings(polarity=chosen, level=level, span=span)
 
 
 def _report(frame: Frame, files: list[Path], as_json: bool) -> None:

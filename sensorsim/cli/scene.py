@@ -31,9 +31,9 @@ def scene(name: SceneName, level: Level = "IIIB", as_json: AsJson = False) -> No
 
 
 def _show(audit: Audit) -> None:
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)  # brackets in titles and notes are units, not styles
     counts = audit.counts
-    console.print(f"[bold]{audit.scene}[/bold], level {audit.level}: {audit.place}")
+    console.print(f"{audit.scene}, level {audit.level}: {audit.place}", style="bold")
     console.print(
         f"{counts.features} features, {counts.surfaces} surfaces, {counts.vertices} vertices, {counts.edges} edges; "
         f"{audit.solids} solids, {audit.planes} planes; cameras: {', '.join(audit.cameras)}"

@@ -51,7 +51,7 @@ class Camera:
         """Perspective projection (4, 4) of a picture of `size` (width, height), clip planes at `near` and `far` [m]."""
         forward, _, up = self.axes()
         eye_from_camera = matrix44.create_look_at(np.zeros(3), forward, up, dtype=np.float64).T
-        half_width, half_height = self._half_extent(size)
+        half_width, half_height = self.half_extent(size)
         projection = matrix44.create_perspective_projection_from_bounds(
             -half_width * near, half_width * near, -half_height * near, half_height * near, near, far, dtype=np.float64
         )
@@ -60,11 +60,12 @@ class Camera:
     def view_rays(self, size: tuple[int, int]) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Ray through the picture's lower left corner, and the vectors along its width and height."""
         forward, right, up = self.axes()
-        half_width, half_height = self._half_extent(size)
+        half_width, half_height = self.half_extent(size)
         corner = forward - half_width * right - half_height * up
         return corner, 2.0 * half_width * right, 2.0 * half_height * up
 
-    def _half_extent(self, size: tuple[int, int]) -> tuple[float, float]:
+    def half_extent(self, size: tuple[int, int]) -> tuple[float, float]:
+        """Half the width and height of the picture at distance 1, for pixels that are square."""
         half_width = float(np.tan(np.radians(0.5 * self.horizontal_field_of_view)))
         return half_width, half_width * size[1] / size[0]
 
@@ -90,13 +91,17 @@ def station_camera(scene: Scene, name: str, *, horizontal_field_of_view: float |
     return look_at(station.position(scene.frame), station.target(scene.frame), field)
 
 
-def clip_distances(camera: Camera, lowest: FloatArray, highest: FloatArray) -> tuple[float, float]:
+def clip_distances(
+    camera: Camera, size: tuple[int, int], lowest: FloatArray, highest: FloatArray
+) -> tuple[float, float]:
     """Near and far clip plane [m] for a scene within the box `lowest` to `highest` (3,).
 
-    The near plane is as far as the scene allows, since the depth buffer's resolution goes with it.
+    The near plane is as far as the scene allows, since the depth buffer's resolution goes with it. It is square to the
+    view: what lies at a distance is nearer to it at the picture's corners, by the cosine of their angle.
     """
     corner = np.where(camera.position < lowest, lowest, np.minimum(camera.position, highest))
     nearest = float(np.linalg.norm(corner - camera.position))
     farthest = float(np.linalg.norm(np.maximum(np.abs(lowest - camera.position), np.abs(highest - camera.position))))
-    near = max(0.5, 0.5 * nearest)
+    cosine = 1.0 / float(np.linalg.norm([1.0, *camera.half_extent(size)]))
+    near = max(0.5 * cosine, 0.5 * nearest * cosine)
     return near, max(1.1 * farthest, 2.0 * near)

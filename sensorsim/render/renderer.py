@@ -9,7 +9,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from sensorsim.constants import PI
 from sensorsim.errors import NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
@@ -105,7 +104,7 @@ class Renderer:
         coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
         sky = LookupTable(
-            name="sky_radiance", quantity="Radiance", argument="Radian", minimum=0.0, maximum=PI / 2,
+            name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
             values=np.zeros(SKY_ENTRIES),
         )  # fmt: skip
         self._tables = {
@@ -160,7 +159,7 @@ class Renderer:
 
     def _draw(self, camera: Camera) -> None:
         position = self.world.scene.mesh.position
-        near, far = clip_distances(camera, position.min(axis=0), position.max(axis=0))
+        near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
         corner, right, up = camera.view_rays(self.size)
         self._blocks["ViewFrame"].write(
             VIEW_FRAME.pack(

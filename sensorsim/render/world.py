@@ -49,7 +49,8 @@ def build_world(
         progress=progress,
     )
     site = scene.site
-    mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=site.utc_offset)
+    clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
+    mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
     return World(
         scene=scene,
         weather=weather,

@@ -12,7 +12,7 @@ layout(location = 0) out vec4 quantities;
 layout(location = 1) out int id;
 
 Radiance background_radiance(Direction view) {
-    if (view.z >= 0.0) return sky_radiance(asin(min(view.z, 1.0)));
+    if (view.z >= 0.0) return sky_radiance(view.z);
     Metre height = max(view_frame.camera_position.z, 0.0);
     return apparent_radiance(illumination.ground_radiance, height / -view.z);
 }

@@ -1,0 +1,149 @@
+"""Each shader function of the surface pass, alone, against its twin in NumPy."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from glsl_harness import evaluate
+from small_world import random_normals, tables
+
+from sensorsim.gpu import constants_glsl, float_table
+from sensorsim.radiometry import FLIR_BAND, build_band_table
+from sensorsim.render.blocks import ILLUMINATION
+from sensorsim.tables import LookupTable, evaluate_polynomial, surface_temperature
+from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.thermal import quadrant_view_factors
+
+COUNT = 3000
+
+
+def _light(**changes: Any) -> dict[str, Any]:
+    """Surroundings of a frame as the block takes them."""
+    return {
+        "quadrant": np.array([12.0, 30.0, 55.0, 9.0]),
+        "sun_direction": np.array([0.36, -0.48, 0.8]),
+        "beam": 410.0,
+        "sky_radiance": 21.0,
+        "ground_radiance": 37.0,
+        "air_radiance": 34.0,
+        "attenuation": 2.3e-4,
+        **changes,
+    }
+
+
+def _shade(ctx: moderngl.Context, coefficients: np.ndarray, inputs: Mapping[str, np.ndarray]) -> np.ndarray:
+    texture = float_table(ctx, "coefficient_table", coefficient_texels(coefficients))
+    result = evaluate(
+        ctx, "surface_temperature(wall_type, corner.xyz, weight, reflectance)", inputs,
+        include=["radiance/shade.glsl"],
+        generated={"coefficients": coefficient_glsl(coefficients.shape[-1])},
+        tables={"coefficient_table": texture},
+    )  # fmt: skip
+    texture.release()
+    return result
+
+
+@pytest.mark.parametrize("time", [0.0, 25200.0, 36000.0, 40500.0, 86400.0])
+def test_shaded_temperature_is_its_twin_within_five_millikelvin(ctx: moderngl.Context, time: float) -> None:
+    """Random normals, walls and reflectances; what single precision leaves is a tenth of what is allowed."""
+    rng, baked = np.random.default_rng(17), tables()
+    normal, wall = random_normals(COUNT), rng.integers(0, 4, COUNT)
+    reflectance = rng.uniform(0.02, 0.98, COUNT)
+    corner, weight = baked.orientations.locate(normal)
+    padded = np.column_stack([corner, np.zeros(COUNT, dtype=np.int64)])
+    inputs = {"wall_type": wall, "corner": padded, "weight": weight, "reflectance": reflectance}
+    shaded = _shade(ctx, baked.at(time), inputs)
+    assert np.abs(shaded - surface_temperature(baked, normal, wall, reflectance, time)).max() < 5e-4
+
+
+@pytest.mark.parametrize("powers", [1, 2, 3, 4, 5, 8, 9])
+def test_polynomials_of_any_degree_are_read_whole(ctx: moderngl.Context, powers: int) -> None:
+    """Four powers share a texel: degrees that fill one, spill into the next, or leave room."""
+    rng = np.random.default_rng(powers)
+    coefficients = rng.uniform(-20.0, 20.0, (2, 6, powers))
+    wall, corner = rng.integers(0, 2, 500), rng.integers(0, 6, (500, 4))
+    weight, reflectance = rng.dirichlet(np.ones(3), 500), rng.uniform(0.0, 1.0, 500)
+    inputs = {"wall_type": wall, "corner": corner, "weight": weight, "reflectance": reflectance}
+    blended = np.einsum("mk,mkp->mp", weight, coefficients[wall[:, None], corner[:, :3]])
+    np.testing.assert_allclose(_shade(ctx, coefficients, inputs), evaluate_polynomial(blended, reflectance), atol=1e-4)
+
+
+def test_emitted_radiance_is_its_twin_within_a_millikelvin(ctx: moderngl.Context) -> None:
+    rng, table = np.random.default_rng(4), build_band_table(FLIR_BAND)
+    kelvin, emissivity, normal = rng.uniform(200.0, 400.0, COUNT), rng.uniform(0.02, 1.0, COUNT), random_normals(COUNT)
+    lookup = LookupTable(
+        name="band_radiance", quantity="Radiance", argument="Kelvin",
+        minimum=150.0, maximum=700.0, values=np.array(table.radiance),
+    )  # fmt: skip
+    texture = float_table(ctx, "band_radiance_table", lookup.texels)
+    shaded = evaluate(
+        ctx, "emitted_radiance(kelvin, emissivity, normal)",
+        {"kelvin": kelvin, "emissivity": emissivity, "normal": normal},
+        include=["radiance/emitted.glsl"],
+        generated={"band_radiance": lookup.glsl()},
+        blocks={ILLUMINATION: ILLUMINATION.pack(**_light())},
+        tables={"band_radiance_table": texture},
+    )  # fmt: skip
+    texture.release()
+    sky = 0.5 * (1.0 + normal[:, 2])
+    twin = emissivity * table.radiance_at(kelvin) + (1.0 - emissivity) * (sky * 21.0 + (1.0 - sky) * 37.0)
+    miss = table.apparent_temperature(shaded.astype(np.float64)) - table.apparent_temperature(twin)
+    assert np.abs(miss).max() < 1e-3
+
+
+def test_reflected_radiance_is_its_twin(ctx: moderngl.Context) -> None:
+    """Every side of the surface, also where the sun is behind it."""
+    light, normal = _light(), random_normals(COUNT)
+    reflectance, factors = np.random.default_rng(6).uniform(0.0, 0.95, COUNT), quadrant_view_factors(normal)
+    shaded = evaluate(
+        ctx, "reflected_radiance(reflectance, normal, quarters)",
+        {"reflectance": reflectance, "normal": normal, "quarters": factors},
+        include=["radiance/reflected.glsl"],
+        generated={"constants": constants_glsl()},
+        blocks={ILLUMINATION: ILLUMINATION.pack(**light)},
+    )  # fmt: skip
+    sun = 410.0 * np.maximum(normal @ light["sun_direction"], 0.0)
+    sky = 4.0 * factors @ light["quadrant"]
+    ground = np.pi * 37.0 * 0.5 * (1.0 - normal[:, 2])
+    np.testing.assert_allclose(shaded, reflectance * (sun + sky + ground) / np.pi, rtol=1e-5, atol=1e-5)
+
+
+def test_white_roof_under_a_uniform_sky_is_as_bright_as_the_sky(ctx: moderngl.Context) -> None:
+    """Rationale: a Lambertian surface of reflectance 1 under radiance L all around has radiance L, however tilted."""
+    normal = random_normals(500)
+    light = _light(quadrant=np.full(4, np.pi / 4.0 * 20.0), beam=0.0, ground_radiance=20.0)
+    shaded = evaluate(
+        ctx, "reflected_radiance(1.0, normal, quarters)", {"normal": normal, "quarters": quadrant_view_factors(normal)},
+        include=["radiance/reflected.glsl"],
+        generated={"constants": constants_glsl()},
+        blocks={ILLUMINATION: ILLUMINATION.pack(**light)},
+    )  # fmt: skip
+    np.testing.assert_allclose(shaded, 20.0, rtol=1e-5)
+
+
+def _through_air(ctx: moderngl.Context, source: np.ndarray, distance: np.ndarray, **changes: Any) -> np.ndarray:
+    return evaluate(
+        ctx, "apparent_radiance(source, distance_)", {"source": source, "distance_": distance},
+        include=["radiance/path.glsl"],
+        blocks={ILLUMINATION: ILLUMINATION.pack(**_light(**changes))},
+    )  # fmt: skip
+
+
+def test_path_leaves_a_near_surface_alone_and_a_far_one_to_the_air(ctx: moderngl.Context) -> None:
+    """The limits of eq. 15 of the report: range 0 and infinite range; and its twin between them."""
+    rng = np.random.default_rng(9)
+    source = rng.uniform(0.0, 90.0, COUNT).astype(np.float32)
+    np.testing.assert_array_equal(_through_air(ctx, source, np.zeros(COUNT)), source)
+    np.testing.assert_array_equal(_through_air(ctx, source, np.full(COUNT, 1e9)), np.float32(34.0))
+    np.testing.assert_array_equal(_through_air(ctx, source, np.full(COUNT, 1e5), attenuation=0.0), source)
+    distance = rng.uniform(0.0, 20e3, COUNT)
+    transmittance = np.exp(-2.3e-4 * distance)
+    twin = transmittance * source + (1.0 - transmittance) * 34.0
+    np.testing.assert_allclose(_through_air(ctx, source, distance), twin, rtol=1e-5)
+
+
+def test_surface_as_bright_as_the_air_stays_so_at_any_range(ctx: moderngl.Context) -> None:
+    distance = np.geomspace(0.1, 1e6, 400)
+    np.testing.assert_allclose(_through_air(ctx, np.full(400, 34.0), distance), 34.0, rtol=2e-7)
