@@ -17,7 +17,7 @@ from sensorsim.tables import (
     orientation_set,
     surface_temperature,
 )
-from sensorsim.thermal import build_interior, expose, ground_temperature, march, outside_of
+from sensorsim.thermal import build_interior, expose, ground_temperature, march, surface_boundary
 
 SINGLE = 4e-5  # [K] of a temperature near 300 K in single precision
 
@@ -27,10 +27,7 @@ def _history(wall: WallType, absorptances: np.ndarray) -> np.ndarray:
     weather = environment()
     soil = ground_temperature(weather, wall_types()[3], sky=SETTINGS.sky)
     exposure = expose(weather, orientation_set(SETTINGS.orientations).normal, soil, sky=SETTINGS.sky)
-    outside = outside_of(
-        weather, exposure, emissivity=wall.emissivity, roughness=wall.roughness,
-        correlation=SETTINGS.convection, length=wall.characteristic_length,
-    )  # fmt: skip
+    outside = surface_boundary(weather, exposure, wall, correlation=SETTINGS.convection)
     inside = build_interior(
         wall.interior, weather.air_temperature, weather.wind_speed, weather.step, wall.interior_emissivity
     )

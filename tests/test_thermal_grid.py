@@ -8,7 +8,8 @@ from sensorsim.thermal import WallGrid, build_grid
 
 def _stacks() -> dict[str, tuple[Layer, ...]]:
     """Every construction that the package ships, and some that it does not."""
-    stacks = {f"material {code}": entry.construction.layers for code, entry in load_catalogue().materials.items()}
+    materials = load_catalogue().materials.items()
+    stacks = {f"material {code}": entry.construction.layers for code, entry in materials if not entry.mixture}
     stacks |= {name: load_construction(name).layers for name in ("brick", "steel_sheet", "insulated_wood")}
     stacks |= reference_walls()
     stacks["thick soil"] = (slab(10.0, 1.5, 2000.0, 900.0),)

@@ -7,8 +7,10 @@ apart; a `WallType` is what the thermal model solves; `load_construction` reads 
 from sensorsim.materials.catalogue import Catalogue, load_catalogue
 from sensorsim.materials.code import MaterialWord, parse_word
 from sensorsim.materials.construction import Construction, Layer, construction_names, load_construction
+from sensorsim.materials.cover import Cover, Leafless
 from sensorsim.materials.entry import Choice, Quantity
-from sensorsim.materials.material import INTERIORS, ROUGHNESS_CLASSES, Material, WallType
+from sensorsim.materials.material import INTERIORS, ROUGHNESS_CLASSES, Material, WallPart, WallType
+from sensorsim.materials.mixture import Component, Coverage, component_shares, part_reflectance
 from sensorsim.materials.optical import nir_reflectance
 from sensorsim.materials.readings import Reading
 
@@ -17,16 +19,23 @@ __all__ = [
     "ROUGHNESS_CLASSES",
     "Catalogue",
     "Choice",
+    "Component",
     "Construction",
+    "Cover",
+    "Coverage",
     "Layer",
+    "Leafless",
     "Material",
     "MaterialWord",
     "Quantity",
     "Reading",
+    "WallPart",
     "WallType",
+    "component_shares",
     "construction_names",
     "load_catalogue",
     "load_construction",
     "nir_reflectance",
     "parse_word",
+    "part_reflectance",
 ]

@@ -4,16 +4,35 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from sensorsim.errors import InputError
 from sensorsim.materials.code import MaterialWord, parse_word
-from sensorsim.materials.construction import Construction, construction_names, load_construction, read_substances
-from sensorsim.materials.entry import read_toml
-from sensorsim.materials.material import Material, WallType, read_material, wall_type
+from sensorsim.materials.construction import (
+    Construction,
+    Layer,
+    construction_names,
+    load_construction,
+    read_layer,
+    read_substances,
+)
+from sensorsim.materials.entry import Entry, read_toml
+from sensorsim.materials.material import (
+    OUTDOOR_GROUPS,
+    Material,
+    WallPart,
+    WallType,
+    mixed_wall_type,
+    read_material,
+    wall_type,
+)
+from sensorsim.materials.mixture import Coverage, component_shares
 from sensorsim.materials.readings import Reading, read_readings
 from sensorsim.resources import assets_folder
 
 _SUBSTANCES, _READINGS = "substances.toml", "readings.toml"
+SOIL = "subsoil"  # the substance that lies below planes whose own layers have no ground in them
+UNKNOWN_COVERAGE = Coverage()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,6 +44,7 @@ class Catalogue:
     constructions: Mapping[str, Construction]
     readings: Mapping[int, Reading]
     word_notes: Mapping[str, str]
+    soil: Layer | None  # below planes whose layers have no ground in them; None where no such substance is given
 
     @property
     def codes(self) -> Mapping[int, str]:
@@ -55,13 +75,32 @@ class Catalogue:
             )
         return self.materials[code]
 
-    def wall_type(self, code: int, interior: str) -> WallType:
-        """Wall type of a code with the given interior condition; InputError where either is unknown."""
-        return wall_type(self.material(code), interior)
+    def wall_type(
+        self, code: int, interior: str, *, leafless: bool = False, coverage: Coverage = UNKNOWN_COVERAGE,
+        side: bool = False,
+    ) -> WallType:  # fmt: skip
+        """Wall type of a code with the given interior condition; InputError where either is unknown.
+
+        `leafless` shows deciduous plants in their bare season; `coverage` and `side` matter for mixed blocks, see
+        `component_shares`. Components that are no building have no room behind them; the others are unheated where
+        the block itself has none.
+        """
+        material = self.material(code)
+        if not material.mixture:
+            return wall_type(material, interior, soil=self.soil, leafless=leafless)
+        parts = []
+        for component, share in zip(
+            material.mixture, component_shares(material.mixture, coverage, side=side), strict=True
+        ):
+            own = self.material(component.code)
+            room = "unheated" if interior == "none" else interior
+            behind = "none" if own.group in OUTDOOR_GROUPS else room
+            wall = wall_type(own, behind, soil=self.soil, leafless=leafless)
+            parts.append(WallPart(wall=wall, share=share, reflectance=own.solar_reflectance))
+        return mixed_wall_type(material, interior, parts)
 
 
-def _read_materials(folder: Path) -> dict[int, Material]:
-    substances = read_substances(folder / _SUBSTANCES) if (folder / _SUBSTANCES).is_file() else {}
+def _read_materials(folder: Path, substances: Mapping[str, Mapping[str, Any]]) -> dict[int, Material]:
     materials: dict[int, Material] = {}
     for path in sorted(folder.glob("*.toml")):
         if path.name in (_SUBSTANCES, _READINGS):
@@ -75,7 +114,24 @@ def _read_materials(folder: Path) -> dict[int, Material]:
                 problem = f"code given twice, first for {first.name} in {first.file}"
                 raise InputError(path, "material code", material.code, problem, "give one of them a free code")
             materials[material.code] = material
+    _require_components(folder, materials)
     return dict(sorted(materials.items()))
+
+
+def _require_components(folder: Path, materials: Mapping[int, Material]) -> None:
+    """Refuse mixtures of codes that do not exist or are mixtures themselves."""
+    for material in materials.values():
+        for component in material.mixture:
+            if component.code not in materials or materials[component.code].mixture:
+                entry = f"material {material.code} mixture code"
+                problem, remedy = "no plain material", "name the code of a material that is no mixture"
+                raise InputError(folder / material.file, entry, component.code, problem, remedy)
+
+
+def _soil(folder: Path, substances: Mapping[str, Mapping[str, Any]]) -> Layer | None:
+    if SOIL not in substances:
+        return None
+    return read_layer(Entry(where=folder / _SUBSTANCES, name=SOIL, table={"substance": SOIL}), substances)
 
 
 def load_catalogue(folder: Path | None = None) -> Catalogue:
@@ -87,7 +143,8 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
     folder = assets_folder() / "materials" if folder is None else folder
     if not folder.is_dir():
         raise InputError("catalogue", "folder", str(folder), "no such folder", "name a folder of TOML files")
-    materials = _read_materials(folder)
+    substances = read_substances(folder / _SUBSTANCES) if (folder / _SUBSTANCES).is_file() else {}
+    materials = _read_materials(folder, substances)
     if not materials:
         raise InputError(folder, "material", None, "no materials", "add a TOML file with [[material]] entries")
     has_readings = (folder / _READINGS).is_file()
@@ -98,4 +155,5 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
         constructions=MappingProxyType({name: load_construction(name) for name in construction_names()}),
         readings=MappingProxyType(dict(readings)),
         word_notes=MappingProxyType(dict(notes)),
+        soil=_soil(folder, substances),
     )

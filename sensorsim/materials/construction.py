@@ -61,7 +61,8 @@ class Construction:
         return sum(layer.thermal_resistance for layer in self.layers)
 
 
-def _read_layer(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Layer:
+def read_layer(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Layer:
+    """Layer of one [[layer]] entry, its missing numbers from the substance it names."""
     entry.refuse_unknown(("name", "substance", *_LAYER_BOUNDS))
     table = dict(entry.table)
     if "substance" in table:
@@ -84,7 +85,7 @@ def _read_layer(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> La
 
 def read_layers(parent: Entry, substances: Mapping[str, Mapping[str, Any]]) -> tuple[Layer, ...]:
     """Layers of the [[layer]] list of `parent`, exterior first; InputError where one is wrong or nothing is left."""
-    layers = tuple(_read_layer(entry, substances) for entry in parent.entries("layer", "layer"))
+    layers = tuple(read_layer(entry, substances) for entry in parent.entries("layer", "layer"))
     if not layers:
         raise parent.error("layer", "no layers", "add at least one [[layer]] with a thickness or a resistance")
     if all(layer.thermal_resistance == 0.0 for layer in layers):

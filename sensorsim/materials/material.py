@@ -1,12 +1,14 @@
 """What one code of the report's figure 9 stands for, and what the thermal model solves."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sensorsim.errors import InputError
 from sensorsim.materials.construction import Construction, Layer, read_layers
+from sensorsim.materials.cover import Cover, Leafless, read_cover, read_leafless
 from sensorsim.materials.entry import FRACTION, POSITIVE, Choice, Entry, Quantity
+from sensorsim.materials.mixture import Component, read_mixture
 
 # The classes that the DOE-2 and MoWiTT convection correlations distinguish [Yazdanian1994, EnergyPlus2024].
 ROUGHNESS_CLASSES = ("very_rough", "rough", "medium_rough", "medium_smooth", "smooth", "very_smooth")
@@ -22,7 +24,10 @@ _REQUIRED = (
     "code", "name", "group", "solar_absorptance", "emissivity", "reflectance_nir",
     "roughness", "characteristic_length", "construction", "layer",
 )  # fmt: skip
-_OPTIONAL = ("solar_transmittance", "interior_emissivity")
+_OPTIONAL = ("solar_transmittance", "interior_emissivity", "cover", "leafless", "mixture")
+# Groups whose surfaces lie on the ground or grow from it: a mixed block has no room behind these components.
+OUTDOOR_GROUPS = ("ground", "pavement", "vegetation", "water")
+SOIL_REACH = 0.6  # [m] depth that a construction with no room behind reaches; soil is put below one that does not
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,13 +44,25 @@ class Material:
     roughness: Choice  # one of ROUGHNESS_CLASSES
     characteristic_length: Quantity  # [m], of a typical surface, for convection
     interior_emissivity: Quantity  # [-], of the inner face
-    construction: Construction
+    construction: Construction  # without layers where it is a mixture
+    cover: Cover | None
+    leafless: Leafless | None
+    mixture: tuple[Component, ...]
     file: str
 
     @property
     def solar_reflectance(self) -> float:
         """Solar reflectance [-] of the class, for surfaces that no word describes."""
         return 1.0 - self.solar_absorptance.value - self.solar_transmittance.value
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WallPart:
+    """One component of a mixed wall type."""
+
+    wall: "WallType"
+    share: float  # [-] of the area
+    reflectance: float  # [-] solar, of its own class
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,23 +77,43 @@ class WallType:
     interior: str  # one of INTERIORS
     roughness: str  # one of ROUGHNESS_CLASSES
     characteristic_length: float  # [m]
+    cover: Cover | None = None
+    parts: tuple[WallPart, ...] = ()  # of a mixture, which has no layers of its own; their shares sum to 1
 
 
-def wall_type(material: Material, interior: str) -> WallType:
-    """Wall type of `material` with the given condition inside; InputError for an unknown condition."""
+def wall_type(material: Material, interior: str, *, soil: Layer | None = None, leafless: bool = False) -> WallType:
+    """Wall type of `material` with the given condition inside; InputError for an unknown condition.
+
+    Where there is no room behind (interior 'none') and the layers do not reach SOIL_REACH, a layer of `soil` lies
+    below them. `leafless` shows deciduous plants in their bare season.
+    """
     if interior not in INTERIORS:
         problem, remedy = "unknown interior condition", f"use one of {', '.join(INTERIORS)}"
         raise InputError("wall type", f"material {material.code} interior", interior, problem, remedy)
+    layers, cover, emissivity = material.construction.layers, material.cover, material.emissivity.value
+    if soil is not None and interior == "none" and sum(layer.thickness for layer in layers) < SOIL_REACH:
+        layers = (*layers, soil)
+    if leafless and material.leafless is not None and cover is not None:
+        cover = replace(cover, leaf_area_index=0.0, interception=material.leafless.interception.value)
+        emissivity = material.leafless.emissivity.value
     return WallType(
         code=material.code,
         name=material.name,
-        layers=material.construction.layers,
-        emissivity=material.emissivity.value,
+        layers=layers,
+        emissivity=emissivity,
         interior_emissivity=material.interior_emissivity.value,
         interior=interior,
         roughness=material.roughness.value,
         characteristic_length=material.characteristic_length.value,
+        cover=cover,
     )
+
+
+def mixed_wall_type(material: Material, interior: str, parts: Sequence[WallPart]) -> WallType:
+    """Wall type of a mixture: no layers, the mean emissivity of its parts, of which those without area are left out."""
+    shown = tuple(part for part in parts if part.share > 0.0)
+    emissivity = sum(part.share * part.wall.emissivity for part in shown)
+    return replace(wall_type(material, interior), layers=(), emissivity=emissivity, parts=shown)
 
 
 def _read_code(entry: Entry) -> int:
@@ -86,7 +123,7 @@ def _read_code(entry: Entry) -> int:
     return code
 
 
-def _read_construction(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Construction:
+def _read_construction(entry: Entry, substances: Mapping[str, Mapping[str, Any]], *, mixed: bool) -> Construction:
     held = entry.table.get("construction")
     if not isinstance(held, Mapping):
         raise entry.error("construction", "missing or not a table", 'write { description = "..", source = ".." }')
@@ -95,7 +132,7 @@ def _read_construction(entry: Entry, substances: Mapping[str, Mapping[str, Any]]
     return Construction(
         name=entry.text("name"),
         description=inner.text("description"),
-        layers=read_layers(entry, substances),
+        layers=() if mixed else read_layers(entry, substances),
         source=inner.source(),
     )
 
@@ -105,6 +142,9 @@ def read_material(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> 
     code = _read_code(entry)
     entry = Entry(where=entry.where, name=f"material {code}", table=entry.table)
     entry.refuse_unknown((*_REQUIRED, *_OPTIONAL))
+    mixture = read_mixture(entry)
+    if mixture and "layer" in entry.table:
+        raise entry.error("layer", "both layers and a mixture given", "keep one of them", len(mixture))
     material = Material(
         code=code,
         name=entry.text("name"),
@@ -116,7 +156,10 @@ def read_material(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> 
         roughness=entry.choice("roughness", ROUGHNESS_CLASSES),
         characteristic_length=entry.quantity("characteristic_length", POSITIVE),
         interior_emissivity=_optional(entry, "interior_emissivity", INTERIOR_EMISSIVITY),
-        construction=_read_construction(entry, substances),
+        construction=_read_construction(entry, substances, mixed=bool(mixture)),
+        cover=read_cover(entry),
+        leafless=read_leafless(entry),
+        mixture=mixture,
         file=entry.where.name,
     )
     if material.solar_reflectance < -1e-9:

@@ -7,8 +7,9 @@ from sensorsim.environment import Environment, Weather, build_environment, place
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import BakeSettings, ShadeTables, cached_tables
-from sensorsim.tables.assign import Assignment, assign_wall_types
+from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
+from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
 
@@ -20,6 +21,7 @@ class World:
     scene: Scene
     weather: Weather
     environment: Environment
+    season: Season
     assignment: Assignment
     tables: ShadeTables
     warnings: tuple[str, ...]  # what a user should know of the inputs
@@ -40,11 +42,12 @@ def build_world(
     environment = build_environment(
         weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
     )
-    assignment = assign_wall_types(scene, catalogue)
+    season = season_of(environment)
+    assignment = assign_wall_types(scene, catalogue, season)
     tables = cached_tables(
         environment,
         assignment.wall_types,
-        ground=catalogue.wall_type(GROUND_CODE, "none"),
+        ground=catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none"),
         settings=settings,
         progress=progress,
     )
@@ -55,6 +58,7 @@ def build_world(
         scene=scene,
         weather=weather,
         environment=environment,
+        season=season,
         assignment=assignment,
         tables=tables,
         warnings=() if mismatch is None else (mismatch,),

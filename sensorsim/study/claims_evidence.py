@@ -67,7 +67,8 @@ class View:
     def building_walls(self) -> Rows:
         """Walls (s,) of whatever has an inside: no trees, no bridge."""
         surfaces = self.world.scene.surfaces
-        return np.asarray((surfaces.role == "wall") & (surfaces.interior != "none"))
+        bridge = np.array([feature.description == "Bridge" for feature in self.world.scene.features])
+        return np.asarray((surfaces.role == "wall") & (surfaces.interior != "none") & ~bridge[surfaces.feature])
 
     def azimuths(self) -> FloatArray:
         """Azimuths (s,) that surfaces face [deg]."""

@@ -72,11 +72,12 @@ CLAIMS = (
         unit="K",
         measure=_picture_spread,
         relations=(more("winter", than="summer"), more("winter", than="fall")),
-        reason="Walls do stand out most in winter. The whole picture does not: in the still air of the two other days "
-        "grass and roofs part from walls and streets by more than the windy winter day lets them.",
+        reason="Walls do stand out most in winter. The whole picture does not: in the fall day's sun and still air "
+        "roofs and grass part from walls, trees and streets by more than the windy winter day lets them. The overcast "
+        "summer day draws about level with it.",
         instead=(
-            more("summer", than="winter", by=NOTICEABLE),
             more("fall", than="winter", by=NOTICEABLE),
+            more("winter", than="summer", by=-NOTICEABLE),
             more("winter walls", than="summer walls", by=NOTICEABLE),
             more("winter walls", than="fall walls", by=NOTICEABLE),
         ),

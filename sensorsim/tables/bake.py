@@ -11,12 +11,15 @@ from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
+from sensorsim.tables.mixture import mix_coefficients
 from sensorsim.tables.orientations import FloatArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.grid import build_grid
 from sensorsim.thermal.ground import ground_temperature
-from sensorsim.thermal.heat_balance import Exposure, expose, outside_of
+from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.march import march
+from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -31,7 +34,8 @@ def bake_tables(
 ) -> ShadeTables:
     """Coefficient matrix of all `wall_types` over the environment's image day; `ground` is the plane that walls see.
 
-    Wall types are solved in threads, because the compiled march holds no interpreter lock.
+    Wall types are solved in threads, because the compiled march holds no interpreter lock. Of mixed wall types the
+    parts are solved, each once however many hold it.
     """
     settings = BakeSettings() if settings is None else settings
     orientations = orientation_set(settings.orientations)
@@ -42,21 +46,29 @@ def bake_tables(
     def solve(wall: WallType) -> FloatArray:
         return _solve_wall(environment, exposure, wall, settings, record)
 
-    solved = []
+    plain = list(dict.fromkeys(part for wall in wall_types for part in _plain_walls(wall)))
+    solved: dict[WallType, FloatArray] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        for done, coefficients in enumerate(pool.map(solve, wall_types), start=1):
-            solved.append(coefficients)
+        for wall, coefficients in zip(plain, pool.map(solve, plain), strict=True):
+            solved[wall] = coefficients
             if progress is not None:
-                progress(wall_types[done - 1].name, done, len(wall_types))
+                progress(wall.name, len(solved), len(plain))
+    reflectances = np.asarray(settings.reflectances, dtype=np.float64)
+    rows = [mix_coefficients(wall, solved, reflectances) if wall.parts else solved[wall] for wall in wall_types]
     return ShadeTables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
         wall_types=tuple(wall_types),
         orientations=orientations,
-        coefficients=np.stack(solved, axis=1).astype(np.float32),
+        coefficients=np.stack(rows, axis=1).astype(np.float32),
         ground_temperature=soil[record],
         settings=settings,
     )
+
+
+def _plain_walls(wall: WallType) -> tuple[WallType, ...]:
+    """The wall types that have to be solved for one: itself, or the parts of a mixture."""
+    return tuple(part.wall for part in wall.parts) or (wall,)
 
 
 def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
@@ -74,12 +86,18 @@ def _solve_wall(
 ) -> FloatArray:
     """Coefficients (t, o, p) [K] of one wall type."""
     reflectances = np.asarray(settings.reflectances, dtype=np.float64)
-    outside = outside_of(
-        environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness,
-        correlation=settings.convection, length=wall.characteristic_length,
-    )  # fmt: skip
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
     inside = build_interior(
         wall.interior, environment.air_temperature, environment.wind_speed, environment.step, wall.interior_emissivity
     )
-    history = march(wall.layers, outside, inside, 1.0 - reflectances, step=environment.step, record=record)
-    return fit_polynomials(history.exterior, reflectances, settings.degree)
+    grid, water = build_grid(wall.layers, environment.step), wall.cover is not None and wall.cover.kind == "water"
+    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
+    start = np.full(grid.capacity.size, float(np.mean(environment.air_temperature))) if water else None
+    history = march(
+        wall.layers, outside, inside, 1.0 - reflectances, step=environment.step, record=record, grid=grid, start=start,
+        melting_depth=melting_depth(wall),
+    )  # fmt: skip
+    exterior = history.exterior
+    if water and wall.cover is not None:
+        exterior = cool_skin(exterior, outside, record, wall.cover)
+    return fit_polynomials(exterior, reflectances, settings.degree)

@@ -26,7 +26,7 @@ from sensorsim.tables.settings import BakeSettings
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
 _ARRAYS = ("time_of_day", "coefficients", "ground_temperature")
-_CODE = ("constants.py", "environment", "thermal", "tables")
+_CODE = ("constants.py", "environment", "materials", "thermal", "tables")
 
 
 def cached_tables(

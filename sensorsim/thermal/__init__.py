@@ -8,6 +8,7 @@ from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import SKIES, Exposure, expose, outside_of
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.march import History, march
+from sensorsim.thermal.natural import surface_boundary
 from sensorsim.thermal.polygon_view_factors import (
     Outlines,
     outlines_of_mesh,
@@ -15,6 +16,7 @@ from sensorsim.thermal.polygon_view_factors import (
     polygon_view_factor,
     view_factor_matrix,
 )
+from sensorsim.thermal.season import Season, growing_season_index, season_of
 from sensorsim.thermal.view_factors import ground_view_factor, quadrant_view_factors, sky_view_factor
 
 __all__ = [
@@ -26,6 +28,7 @@ __all__ = [
     "Inside",
     "Outlines",
     "Outside",
+    "Season",
     "WallGrid",
     "build_exchange",
     "build_grid",
@@ -33,6 +36,7 @@ __all__ = [
     "expose",
     "ground_temperature",
     "ground_view_factor",
+    "growing_season_index",
     "largest_possible_change",
     "longwave_from_neighbours",
     "march",
@@ -41,6 +45,8 @@ __all__ = [
     "outside_of",
     "polygon_view_factor",
     "quadrant_view_factors",
+    "season_of",
     "sky_view_factor",
+    "surface_boundary",
     "view_factor_matrix",
 ]

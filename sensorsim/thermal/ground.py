@@ -9,23 +9,25 @@ from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.thermal.grid import FloatArray
-from sensorsim.thermal.heat_balance import expose, outside_of
+from sensorsim.thermal.heat_balance import expose
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.march import march
+from sensorsim.thermal.natural import melting_depth, surface_boundary
 
 
 def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "perez") -> FloatArray:
-    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what its albedo leaves."""
+    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves."""
     up = np.array([[0.0, 0.0, 1.0]])
     exposure = expose(environment, up, environment.air_temperature, sky=sky)  # a plane that faces up sees no ground
     absorbed = exposure.irradiance * (1.0 - environment.ground_albedo)[:, None]
-    outside = outside_of(environment, exposure, emissivity=soil.emissivity, roughness=soil.roughness)
+    outside = surface_boundary(environment, exposure, soil)
     inside = build_interior(
         "none", environment.air_temperature, environment.wind_speed, environment.step, soil.interior_emissivity
     )
     samples = np.arange(environment.time.size)
     history = march(
-        soil.layers, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples
-    )
+        soil.layers, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples,
+        melting_depth=melting_depth(soil),
+    )  # fmt: skip
     temperature = history.exterior[:, 0, 0]
     return np.where(environment.ground_state == "snow", np.minimum(temperature, ZERO_CELSIUS), temperature)

@@ -129,6 +129,7 @@ WORDS: dict[str, tuple[tuple[str, str | None, str | None, str, str, str], ...]] 
     ),
 }  # fmt: skip
 
+UNDER_BRIDGE = "a deck with outdoor air below it"
 HALL = "an industrial hall whose machines keep it warm"
 INTERIORS: dict[str, tuple[tuple[str, str, str], ...]] = {
     "IA": (
@@ -138,7 +139,8 @@ INTERIORS: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("5,9", "heated", HALL),
     ),
     "IIA": (
-        ("1,7,12,15-21", "none", "no room behind the surface"),
+        ("1,7,15-21", "none", "no room behind the surface"),
+        ("12", "open", UNDER_BRIDGE),
         ("2-3,5,8-11", "heated", "dwellings"),
         ("4", "heated", "hospital"),
         ("6,13-14", "heated", HALL),
@@ -152,7 +154,8 @@ INTERIORS: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("47", "unheated", "a tank; its water is not modelled"),
         ("48-49", "heated", "flue gas keeps the casing warm; heated air is the nearest condition"),
         ("52", "open", "one wall is missing [Report1978, 2.2.3]"),
-        ("43,55-62,76-87", "none", "no room behind the surface"),
+        ("43", "open", UNDER_BRIDGE),
+        ("55-62,76-87", "none", "no room behind the surface"),
     ),
 }
 STRUCTURES = {
