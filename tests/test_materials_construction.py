@@ -18,6 +18,7 @@ TRANSMITTANCES = {
     "concrete_block": 2.83235519265,
     "builtup_roof": 0.472945966295,
 }
+IN_PATHS = ("curtain_wall", "insulated_wood_studs", "uninsulated_wood_studs", "wood_floor")
 
 SLAB = "name = 'slab'\nthickness = 0.1\nconductivity = 0.5\ndensity = 1000\nspecific_heat = 900\n"
 
@@ -33,8 +34,9 @@ def test_transmittance_equals_the_sum_of_resistances(name: str, transmittance: f
     assert 1.0 / (FILMS + load_construction(name).thermal_resistance) == pytest.approx(transmittance, rel=1e-9)
 
 
-def test_the_shipped_constructions_are_those_six() -> None:
-    assert construction_names() == tuple(sorted(TRANSMITTANCES))
+def test_the_shipped_constructions_are_those_six_and_four_in_parallel_paths() -> None:
+    assert construction_names() == tuple(sorted((*TRANSMITTANCES, *IN_PATHS)))
+    assert {name for name in construction_names() if load_construction(name).paths} == set(IN_PATHS)
 
 
 def test_the_walls_of_figure_12_have_its_layers_in_inches() -> None:

@@ -6,23 +6,27 @@ from pathlib import Path
 from types import MappingProxyType
 
 from sensorsim.errors import InputError
+from sensorsim.materials.classes import ConstructionClass, Section, read_classes
 from sensorsim.materials.code import MaterialWord, parse_word
-from sensorsim.materials.construction import Construction, construction_names, load_construction, read_substances
+from sensorsim.materials.construction import Construction, construction_names, load_construction
 from sensorsim.materials.entry import read_toml
-from sensorsim.materials.material import Material, WallType, read_material, wall_type
+from sensorsim.materials.layers import read_substances
+from sensorsim.materials.material import Material, read_material
 from sensorsim.materials.readings import Reading, read_readings
+from sensorsim.materials.wall_type import Room, WallType, wall_type
 from sensorsim.resources import assets_folder
 
-_SUBSTANCES, _READINGS = "substances.toml", "readings.toml"
+_SUBSTANCES, _READINGS, _CLASSES = "substances.toml", "readings.toml", "classes.toml"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Catalogue:
-    """Materials by code, constructions by name, readings by code, notes by word."""
+    """Materials by code, constructions and construction classes by name, readings by code, notes by word."""
 
     folder: Path
     materials: Mapping[int, Material]
     constructions: Mapping[str, Construction]
+    classes: Mapping[str, ConstructionClass]
     readings: Mapping[int, Reading]
     word_notes: Mapping[str, str]
 
@@ -55,16 +59,36 @@ class Catalogue:
             )
         return self.materials[code]
 
-    def wall_type(self, code: int, interior: str) -> WallType:
-        """Wall type of a code with the given interior condition; InputError where either is unknown."""
-        return wall_type(self.material(code), interior)
+    def construction_class(self, name: str) -> ConstructionClass:
+        """Class of a name; InputError with the list of the classes for an unknown one."""
+        if name not in self.classes:
+            remedy = f"use one of {', '.join(self.classes)}" if self.classes else f"add {_CLASSES} to the folder"
+            raise InputError(self.folder, "construction_class", name, "no such construction class", remedy)
+        return self.classes[name]
+
+    def wall_type(
+        self,
+        code: int,
+        interior: str,
+        *,
+        section: Section | None = None,
+        room: Room | None = None,
+        heat_gain: float = 0.0,
+    ) -> WallType:
+        """Wall type of a code with the given interior condition; InputError where either is unknown.
+
+        A class's `section` may bring its own construction, its `room` the numbers of the air behind; `heat_gain` is in
+        watts per m2 of floor.
+        """
+        construction = None if section is None else section.construction
+        return wall_type(self.material(code), interior, construction=construction, room=room, heat_gain=heat_gain)
 
 
 def _read_materials(folder: Path) -> dict[int, Material]:
     substances = read_substances(folder / _SUBSTANCES) if (folder / _SUBSTANCES).is_file() else {}
     materials: dict[int, Material] = {}
     for path in sorted(folder.glob("*.toml")):
-        if path.name in (_SUBSTANCES, _READINGS):
+        if path.name in (_SUBSTANCES, _READINGS, _CLASSES):
             continue
         whole = read_toml(path)
         whole.refuse_unknown(("material",))
@@ -81,8 +105,9 @@ def _read_materials(folder: Path) -> dict[int, Material]:
 def load_catalogue(folder: Path | None = None) -> Catalogue:
     """Catalogue of a folder of TOML files; without one, the package's own, assets/materials.
 
-    Every file but substances.toml (layers that entries may name) and readings.toml (codes read as others) holds
-    [[material]] entries. A folder of one's own stands alone: copy the package's and edit. Raises InputError.
+    Every file but substances.toml (layers that entries may name), readings.toml (codes read as others) and classes.toml
+    (construction classes) holds [[material]] entries. A folder of one's own stands alone: copy the package's and edit.
+    Raises InputError.
     """
     folder = assets_folder() / "materials" if folder is None else folder
     if not folder.is_dir():
@@ -92,10 +117,13 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
         raise InputError(folder, "material", None, "no materials", "add a TOML file with [[material]] entries")
     has_readings = (folder / _READINGS).is_file()
     readings, notes = read_readings(folder / _READINGS, materials) if has_readings else ({}, {})
+    constructions = {name: load_construction(name) for name in construction_names()}
+    has_classes = (folder / _CLASSES).is_file()
     return Catalogue(
         folder=folder,
         materials=MappingProxyType(materials),
-        constructions=MappingProxyType({name: load_construction(name) for name in construction_names()}),
+        constructions=MappingProxyType(constructions),
+        classes=read_classes(folder / _CLASSES, materials, constructions) if has_classes else MappingProxyType({}),
         readings=MappingProxyType(dict(readings)),
         word_notes=MappingProxyType(dict(notes)),
     )

@@ -1,18 +1,14 @@
-"""What one code of the report's figure 9 stands for, and what the thermal model solves."""
+"""What one code of the report's figure 9 stands for: the optical numbers of a surface and the layers behind it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from sensorsim.errors import InputError
-from sensorsim.materials.construction import Construction, Layer, read_layers
+from sensorsim.materials.construction import Construction
 from sensorsim.materials.entry import FRACTION, POSITIVE, Choice, Entry, Quantity
+from sensorsim.materials.layers import STACK_KEYS, Substances, read_stack
 
 # The classes that the DOE-2 and MoWiTT convection correlations distinguish [Yazdanian1994, EnergyPlus2024].
 ROUGHNESS_CLASSES = ("very_rough", "rough", "medium_rough", "medium_smooth", "smooth", "very_smooth")
-
-# What the inner face sees: conditioned or enclosed air, outside air, or nothing (ground and other planes).
-INTERIORS = ("heated", "cooled", "unheated", "open", "none")
 
 # Plaster, board and paint; taken where an entry does not name another.
 INTERIOR_EMISSIVITY = Quantity(value=0.9, source="EnergyPlus2024 default thermal absorptance of a Material")
@@ -22,7 +18,7 @@ _REQUIRED = (
     "code", "name", "group", "solar_absorptance", "emissivity", "reflectance_nir",
     "roughness", "characteristic_length", "construction", "layer",
 )  # fmt: skip
-_OPTIONAL = ("solar_transmittance", "interior_emissivity")
+_OPTIONAL = ("solar_transmittance", "interior_emissivity", *STACK_KEYS[1:])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,37 +44,6 @@ class Material:
         return 1.0 - self.solar_absorptance.value - self.solar_transmittance.value
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WallType:
-    """Everything but solar reflectance and orientation that decides a wall's temperature; hashable."""
-
-    code: int
-    name: str
-    layers: tuple[Layer, ...]  # exterior to interior
-    emissivity: float  # [-], outer face
-    interior_emissivity: float  # [-], inner face
-    interior: str  # one of INTERIORS
-    roughness: str  # one of ROUGHNESS_CLASSES
-    characteristic_length: float  # [m]
-
-
-def wall_type(material: Material, interior: str) -> WallType:
-    """Wall type of `material` with the given condition inside; InputError for an unknown condition."""
-    if interior not in INTERIORS:
-        problem, remedy = "unknown interior condition", f"use one of {', '.join(INTERIORS)}"
-        raise InputError("wall type", f"material {material.code} interior", interior, problem, remedy)
-    return WallType(
-        code=material.code,
-        name=material.name,
-        layers=material.construction.layers,
-        emissivity=material.emissivity.value,
-        interior_emissivity=material.interior_emissivity.value,
-        interior=interior,
-        roughness=material.roughness.value,
-        characteristic_length=material.characteristic_length.value,
-    )
-
-
 def _read_code(entry: Entry) -> int:
     code = entry.table.get("code")
     if isinstance(code, bool) or not isinstance(code, int) or not 0 <= code <= 99:
@@ -86,21 +51,25 @@ def _read_code(entry: Entry) -> int:
     return code
 
 
-def _read_construction(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Construction:
+def _read_construction(entry: Entry, substances: Substances) -> Construction:
     held = entry.table.get("construction")
     if not isinstance(held, Mapping):
         raise entry.error("construction", "missing or not a table", 'write { description = "..", source = ".." }')
     inner = Entry(where=entry.where, name=f"{entry.name} construction", table=held)
     inner.refuse_unknown(("description", "source", "estimate"))
+    stack = read_stack(entry, substances)
     return Construction(
         name=entry.text("name"),
         description=inner.text("description"),
-        layers=read_layers(entry, substances),
+        layers=stack.layers,
         source=inner.source(),
+        paths=stack.paths,
+        shape=stack.shape,
+        radius=stack.radius,
     )
 
 
-def read_material(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Material:
+def read_material(entry: Entry, substances: Substances) -> Material:
     """Material of one [[material]] entry; InputError for what is missing, unknown or outside its physical bounds."""
     code = _read_code(entry)
     entry = Entry(where=entry.where, name=f"material {code}", table=entry.table)

@@ -16,7 +16,7 @@ from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose, outside_of
 from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.march import march
+from sensorsim.thermal.paths import march_wall
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -79,7 +79,13 @@ def _solve_wall(
         correlation=settings.convection, length=wall.characteristic_length,
     )  # fmt: skip
     inside = build_interior(
-        wall.interior, environment.air_temperature, environment.wind_speed, environment.step, wall.interior_emissivity
+        wall.interior,
+        environment.air_temperature,
+        environment.wind_speed,
+        environment.step,
+        wall.interior_emissivity,
+        room=wall.room,
+        heat_gain=wall.heat_gain,
     )
-    history = march(wall.layers, outside, inside, 1.0 - reflectances, step=environment.step, record=record)
+    history = march_wall(wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record)
     return fit_polynomials(history.exterior, reflectances, settings.degree)

@@ -6,8 +6,9 @@ from sensorsim.thermal.exchange import Exchange, build_exchange, largest_possibl
 from sensorsim.thermal.grid import WallGrid, build_grid
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import SKIES, Exposure, expose, outside_of
-from sensorsim.thermal.interior import build_interior
+from sensorsim.thermal.interior import build_interior, room_air
 from sensorsim.thermal.march import History, march
+from sensorsim.thermal.paths import march_wall, transmittance, wall_paths
 from sensorsim.thermal.polygon_view_factors import (
     Outlines,
     outlines_of_mesh,
@@ -36,11 +37,15 @@ __all__ = [
     "largest_possible_change",
     "longwave_from_neighbours",
     "march",
+    "march_wall",
     "outlines_of_mesh",
     "outlines_of_polygons",
     "outside_of",
     "polygon_view_factor",
     "quadrant_view_factors",
+    "room_air",
     "sky_view_factor",
+    "transmittance",
     "view_factor_matrix",
+    "wall_paths",
 ]

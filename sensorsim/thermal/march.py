@@ -8,7 +8,7 @@ import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Columns, Inside, Outside
+from sensorsim.thermal.boundary import Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import GAMMA, advance
@@ -42,9 +42,11 @@ def march(
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
     The start is linear between interior and exterior air, as in section 3.6.1 of [Report1978], unless cell
-    temperatures `start` (n,) [K] are given.
+    temperatures `start` (n,) [K] are given. The inside of a curved `grid` is given per its own area, as elsewhere;
+    heats come per exterior area. A solid one has no inside: its innermost cell stands for the interior face.
     """
     grid = build_grid(layers, step) if grid is None else grid
+    inside = per_exterior_area(inside, grid.interior_area)
     cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
     outside, inside = _plain_outside(outside), Inside(*(_plain(value) for value in inside))
     columns = _start(grid, outside, inside, absorptances, start)
@@ -60,7 +62,7 @@ def march(
             raise NumericsError(f"heat balance of a wall did not converge between samples {sample} and {int(wanted)}")
         sample = int(wanted)
         exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
-        interior[row] = columns.faces[1].reshape(shape) + ZERO_CELSIUS
+        interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
         if nodes is not None:
             nodes[row] = columns.cells.reshape(-1, *shape) + ZERO_CELSIUS
     return History(
@@ -72,6 +74,11 @@ def march(
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
         grid=grid,
     )
+
+
+def _innermost(columns: Columns, grid: WallGrid) -> FloatArray:
+    """Temperature (m,) [C] of the interior face, in a solid wall of the cell around its centre."""
+    return np.asarray(columns.faces[1] if grid.interior_area > 0.0 else columns.cells[-1])
 
 
 def _plain_outside(outside: Outside) -> Outside:
