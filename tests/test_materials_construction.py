@@ -85,7 +85,7 @@ BAD = {
     "text for a number": (SLAB.replace("900", "'900'"), "layer 1 specific_heat = '900': not a number"),
     "truth for a number": (SLAB.replace("900", "true"), "layer 1 specific_heat = True: not a number"),
     "missing number": (SLAB.replace("density = 1000\n", ""), "layer 1 density = None: missing; add density"),
-    "missing name": (SLAB.replace("name = 'slab'\n", ""), "layer 1 name = None: missing or not a text"),
+    "empty name": (SLAB.replace("name = 'slab'", "name = ''"), "layer 1 name = '': missing or not a text"),
     "both": (SLAB + "resistance = 0.2\n", "layer 1 thickness = 0.1: both resistance and thickness given"),
     "resistance of zero": ("name = 'air'\nresistance = 0\n", "layer 1 resistance = 0: not a number above 0"),
     "misspelt key": (SLAB + "densty = 3\n", "layer 1 densty = 3: unknown key; use one of name"),

@@ -6,7 +6,7 @@ from wall_cases import constant, outdoors
 
 from sensorsim.errors import InputError
 from sensorsim.materials import INTERIORS, Room, load_catalogue, load_construction
-from sensorsim.thermal import Inside, build_interior, march_wall, room_air
+from sensorsim.thermal import Inside, build_interior, march_paths, room_air
 from sensorsim.thermal.convection import INTERIOR_FREE
 from sensorsim.units import kelvin_from_fahrenheit
 
@@ -108,7 +108,7 @@ def test_an_industrial_hall_shows_its_gain_on_the_outside() -> None:
     for gain in (0.0, 250.0):
         wall = catalogue.wall_type(60, "unheated", room=room, heat_gain=gain)
         inside = build_interior("unheated", outdoor, constant(3.0, 200), STEP, 0.7, room=wall.room, heat_gain=gain)
-        history = march_wall(
+        history = march_paths(
             wall, outdoors(outdoor, 12.0, sky=255.0, emissivity=0.7), inside, np.ones(1), step=STEP,
             record=np.array([199]),
         )  # fmt: skip
@@ -127,7 +127,7 @@ def test_radiant_temperature_3_kelvin_below_the_air_costs_the_outer_face_what_is
     for radiant in (293.15, 290.15):
         inside = Inside(constant(293.15, 300), constant(radiant, 300), constant(0.5, 300), INTERIOR_FREE**3, 0.9)
         outside = outdoors(constant(263.0, 300), 15.0, sky=250.0, emissivity=0.9)
-        history = march_wall(load_construction(name), outside, inside, np.ones(1), step=3600.0, record=np.array([299]))
+        history = march_paths(load_construction(name), outside, inside, np.ones(1), step=3600.0, record=np.array([299]))
         faces.append(float(history.exterior[0, 0, 0]))
     assert 0.7 * error < faces[0] - faces[1] < error
 

@@ -5,7 +5,7 @@ import pytest
 from wall_cases import SIGMA, constant, indoors, outdoors, slab
 
 from sensorsim.materials import Construction, ThermalPath, load_catalogue, load_construction
-from sensorsim.thermal import Inside, Outside, march, march_wall, transmittance, wall_paths
+from sensorsim.thermal import Inside, Outside, march, march_paths, transmittance, wall_paths
 
 STEP = 300.0
 ABSORPTANCES = np.array([0.2, 0.8])
@@ -51,7 +51,7 @@ def test_wall_radiates_and_conducts_what_its_paths_do_together(name: str) -> Non
     construction = load_construction(name)
     outside, inside = _day()
     record = np.arange(0, 289, 12)
-    joined = march_wall(construction, outside, inside, ABSORPTANCES, step=STEP, record=record)
+    joined = march_paths(construction, outside, inside, ABSORPTANCES, step=STEP, record=record)
     glow, heat = 0.0, 0.0
     for path in construction.paths:
         alone = march(path.layers, outside, inside, ABSORPTANCES, step=STEP, record=record)
@@ -69,7 +69,7 @@ def test_steady_wall_of_paths_conducts_by_its_transmittance() -> None:
     outside = outdoors(constant(263.0, count), 1.0 / FILMS[0])
     inside = indoors(constant(293.0, count), 1.0 / FILMS[1])
     runs = [
-        march_wall(construction, outside, inside, np.zeros(1), step=3600.0, record=np.array([last])).heat[1, 0, 0]
+        march_paths(construction, outside, inside, np.zeros(1), step=3600.0, record=np.array([last])).heat[1, 0, 0]
         for last in (count - 2, count - 1)
     ]
     flux = float(runs[1] - runs[0]) / 3600.0
@@ -82,7 +82,7 @@ def test_paths_of_equal_layers_are_a_wall_without_paths() -> None:
     split = Construction(name="split", description="", layers=plain.layers, source="", paths=halves)
     outside, inside = _day(100)
     runs = [
-        march_wall(wall, outside, inside, ABSORPTANCES, step=STEP, record=np.arange(100)) for wall in (plain, split)
+        march_paths(wall, outside, inside, ABSORPTANCES, step=STEP, record=np.arange(100)) for wall in (plain, split)
     ]
     np.testing.assert_allclose(runs[0].exterior, runs[1].exterior, rtol=1e-13)
     assert transmittance(split, *FILMS) == pytest.approx(transmittance(plain, *FILMS), rel=1e-13)
@@ -91,7 +91,7 @@ def test_paths_of_equal_layers_are_a_wall_without_paths() -> None:
 def test_a_wall_without_paths_is_marched_as_its_layers() -> None:
     outside, inside = _day(50)
     brick, record = load_construction("brick"), np.arange(50)
-    by_wall = march_wall(brick, outside, inside, ABSORPTANCES, step=STEP, record=record, keep_nodes=True)
+    by_wall = march_paths(brick, outside, inside, ABSORPTANCES, step=STEP, record=record, keep_nodes=True)
     by_layers = march(brick.layers, outside, inside, ABSORPTANCES, step=STEP, record=record, keep_nodes=True)
     np.testing.assert_array_equal(by_wall.exterior, by_layers.exterior)
     assert by_wall.nodes is not None
@@ -102,7 +102,7 @@ def test_a_wall_without_paths_is_marched_as_its_layers() -> None:
 def test_nodes_are_those_of_the_widest_path() -> None:
     wall = load_construction("insulated_wood_studs")
     outside, inside = _day(50)
-    history = march_wall(wall, outside, inside, ABSORPTANCES, step=STEP, record=np.arange(50), keep_nodes=True)
+    history = march_paths(wall, outside, inside, ABSORPTANCES, step=STEP, record=np.arange(50), keep_nodes=True)
     widest = wall_paths(wall, STEP)[0]
     assert widest.fraction == 0.75
     assert widest.layers == wall.layers
@@ -118,7 +118,7 @@ def test_studs_show_on_a_cold_night_and_the_wall_lies_between() -> None:
         march(path.layers, outside, inside, np.zeros(1), step=STEP, record=np.array([288])).exterior[0, 0, 0]
         for path in wall.paths
     )
-    whole = march_wall(wall, outside, inside, np.zeros(1), step=STEP, record=np.array([288])).exterior[0, 0, 0]
+    whole = march_paths(wall, outside, inside, np.zeros(1), step=STEP, record=np.array([288])).exterior[0, 0, 0]
     assert between < whole < studs
     assert 0.2 < studs - between < 2.0
 

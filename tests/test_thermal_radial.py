@@ -8,7 +8,7 @@ from wall_cases import DARK, FloatArray, constant, gap, indoors, outdoors, slab
 
 from sensorsim.errors import InputError
 from sensorsim.materials import Construction
-from sensorsim.thermal import build_grid, march, march_wall, transmittance
+from sensorsim.thermal import build_grid, march, march_paths, transmittance
 from sensorsim.thermal.shells import Shells
 
 CURVED = ("cylinder", "sphere")
@@ -164,7 +164,7 @@ def test_thin_tube_of_small_radius_stores_and_conducts_less_inside() -> None:
     rise = []
     for shape, radius in (("slab", None), ("cylinder", 0.1), ("sphere", 0.1)):
         trunk = Construction(name="trunk", description="", layers=wood, source="", shape=shape, radius=radius)
-        history = march_wall(
+        history = march_paths(
             trunk, outdoors(constant(280.0, count), 12.0, sun=500.0), indoors(constant(280.0, count), 0.0),
             np.array([0.8]), step=300.0, record=np.array([count - 1]),
         )  # fmt: skip

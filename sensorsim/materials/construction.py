@@ -52,7 +52,7 @@ def construction_names() -> tuple[str, ...]:
 def load_construction(name_or_path: str | Path) -> Construction:
     """Construction by the name of a file in assets/constructions, or from a TOML file of one's own.
 
-    A file holds [[layer]] tables, exterior first, each with a name and either thickness [m], conductivity
+    A file holds [[layer]] tables, exterior first, each with either thickness [m], conductivity
     [W m-1 K-1], density [kg m-3] and specific_heat [J kg-1 K-1], or resistance [m2 K W-1]. A number is plain or
     { value = .., source = ".." } or { value = .., estimate = "why" }. Thickness 0 is allowed.
 

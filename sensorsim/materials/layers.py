@@ -86,7 +86,8 @@ def _read_layer(entry: Entry, substances: Substances) -> Layer:
     numbers = {key: whole.quantity(key, _LAYER_BOUNDS[key]) for key in keys}
     sources = tuple((key, number.source) for key, number in numbers.items())
     values = {key: number.value for key, number in numbers.items()}
-    return Layer(name=whole.text("name"), sources=sources, **values)
+    name = whole.text("name") if "name" in table else entry.name
+    return Layer(name=name, sources=sources, **values)
 
 
 def _read_layers(parent: Entry, entries: Sequence[Entry], substances: Substances) -> tuple[Layer, ...]:

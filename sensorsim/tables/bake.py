@@ -16,7 +16,7 @@ from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose, outside_of
 from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.paths import march_wall
+from sensorsim.thermal.paths import march_paths
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -87,5 +87,5 @@ def _solve_wall(
         room=wall.room,
         heat_gain=wall.heat_gain,
     )
-    history = march_wall(wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record)
+    history = march_paths(wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record)
     return fit_polynomials(history.exterior, reflectances, settings.degree)

@@ -11,7 +11,7 @@ from sensorsim.materials import WallType
 from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.heat_balance import expose, outside_of
 from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.paths import march_wall
+from sensorsim.thermal.paths import march_paths
 
 
 def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "perez") -> FloatArray:
@@ -24,7 +24,7 @@ def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "
         "none", environment.air_temperature, environment.wind_speed, environment.step, soil.interior_emissivity
     )
     samples = np.arange(environment.time.size)
-    history = march_wall(
+    history = march_paths(
         soil, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples
     )
     temperature = history.exterior[:, 0, 0]

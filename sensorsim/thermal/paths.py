@@ -67,7 +67,7 @@ def transmittance(wall: WallLike, exterior_resistance: float, interior_resistanc
     return total
 
 
-def march_wall(
+def march_paths(
     wall: WallLike,
     outside: Outside,
     inside: Inside,
