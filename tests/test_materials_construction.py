@@ -18,6 +18,7 @@ TRANSMITTANCES = {
     "concrete_block": 2.83235519265,
     "builtup_roof": 0.472945966295,
 }
+IN_PATHS = ("curtain_wall", "insulated_wood_studs", "uninsulated_wood_studs", "wood_floor")
 
 SLAB = "name = 'slab'\nthickness = 0.1\nconductivity = 0.5\ndensity = 1000\nspecific_heat = 900\n"
 
@@ -33,8 +34,9 @@ def test_transmittance_equals_the_sum_of_resistances(name: str, transmittance: f
     assert 1.0 / (FILMS + load_construction(name).thermal_resistance) == pytest.approx(transmittance, rel=1e-9)
 
 
-def test_the_shipped_constructions_are_those_six() -> None:
-    assert construction_names() == tuple(sorted(TRANSMITTANCES))
+def test_the_shipped_constructions_are_those_six_and_four_in_parallel_paths() -> None:
+    assert construction_names() == tuple(sorted((*TRANSMITTANCES, *IN_PATHS)))
+    assert {name for name in construction_names() if load_construction(name).paths} == set(IN_PATHS)
 
 
 def test_the_walls_of_figure_12_have_its_layers_in_inches() -> None:
@@ -83,7 +85,7 @@ BAD = {
     "text for a number": (SLAB.replace("900", "'900'"), "layer 1 specific_heat = '900': not a number"),
     "truth for a number": (SLAB.replace("900", "true"), "layer 1 specific_heat = True: not a number"),
     "missing number": (SLAB.replace("density = 1000\n", ""), "layer 1 density = None: missing; add density"),
-    "missing name": (SLAB.replace("name = 'slab'\n", ""), "layer 1 name = None: missing or not a text"),
+    "empty name": (SLAB.replace("name = 'slab'", "name = ''"), "layer 1 name = '': missing or not a text"),
     "both": (SLAB + "resistance = 0.2\n", "layer 1 thickness = 0.1: both resistance and thickness given"),
     "resistance of zero": ("name = 'air'\nresistance = 0\n", "layer 1 resistance = 0: not a number above 0"),
     "misspelt key": (SLAB + "densty = 3\n", "layer 1 densty = 3: unknown key; use one of name"),

@@ -9,6 +9,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.wall import wall
 from sensorsim.errors import InputError, SensorsimError
 
 app = typer.Typer(
@@ -18,7 +19,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (render, gallery, scene, info):
+for command in (render, gallery, scene, wall, info):
     app.command()(command)
 
 

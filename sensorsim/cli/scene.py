@@ -9,13 +9,14 @@ from rich.table import Table
 from sensorsim.cli.options import AsJson, Level, SceneName
 from sensorsim.materials import load_catalogue
 from sensorsim.scene import Audit, audit_scene, load_scene
+from sensorsim.tables import resolve_classes
 from sensorsim.tables.assign import resolve_surface_word
 
 
 def scene(name: SceneName, level: Level = "IIIB", as_json: AsJson = False) -> None:
     """Print a scene's counts, its materials, and missing or ambiguous words with the reading chosen."""
     catalogue = load_catalogue()
-    place = load_scene(name, level=level)
+    place = resolve_classes(load_scene(name, level=level), catalogue)
     names = dict(catalogue.codes)
     notes = {}
     for word, row in zip(*np.unique(place.surfaces.word, return_index=True), strict=True):
@@ -47,7 +48,9 @@ def _show(audit: Audit) -> None:
             _short(use.walls), use.note,
         )  # fmt: skip
     console.print(words)
-    readings = Table(title="Features that figure 10 omits, repeats or contradicts", title_justify="left")
+    readings = Table(
+        title="Features that figure 10 omits, repeats or contradicts, or that go by class", title_justify="left"
+    )
     for title in ("features", "description", "printed roof / wall", "used roof / wall", "why"):
         readings.add_column(title)
     for reading in audit.readings:

@@ -1,120 +1,46 @@
 """Constructions: stacks of layers, exterior to interior, from the package's own files or a user's."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from sensorsim.errors import InputError
-from sensorsim.materials.entry import NOT_NEGATIVE, POSITIVE, UNSOURCED, Bounds, Entry, read_toml
+from sensorsim.materials.entry import UNSOURCED, read_toml
+from sensorsim.materials.layers import STACK_KEYS, Layer, ThermalPath, read_stack
 from sensorsim.resources import assets_folder
-
-_MASS_BOUNDS: Mapping[str, Bounds] = {
-    "thickness": NOT_NEGATIVE,
-    "conductivity": POSITIVE,
-    "density": POSITIVE,
-    "specific_heat": POSITIVE,
-}
-_LAYER_BOUNDS: Mapping[str, Bounds] = {**_MASS_BOUNDS, "resistance": POSITIVE}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Layer:
-    """One layer: a slab with heat capacity, or a pure resistance such as an air space.
-
-    A slab may have thickness 0; it then adds nothing, and whoever solves the wall drops it. A pure resistance has
-    `resistance` set and the four slab numbers 0.
-    """
-
-    name: str
-    thickness: float = 0.0  # [m]
-    conductivity: float = 0.0  # [W m-1 K-1]
-    density: float = 0.0  # [kg m-3]
-    specific_heat: float = 0.0  # [J kg-1 K-1]
-    resistance: float | None = None  # [m2 K W-1], None for a slab
-    # (number, source) pairs; no part of what a layer is, so two layers with equal numbers are equal
-    sources: tuple[tuple[str, str], ...] = field(default=(), compare=False, repr=False)
-
-    @property
-    def thermal_resistance(self) -> float:
-        """Resistance from face to face [m2 K W-1]."""
-        return self.thickness / self.conductivity if self.resistance is None else self.resistance
-
-    @property
-    def areal_heat_capacity(self) -> float:
-        """Heat capacity per area [J m-2 K-1]; 0 for a pure resistance."""
-        return self.thickness * self.density * self.specific_heat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Construction:
-    """A stack of layers, exterior to interior."""
+    """A stack of layers, exterior to interior: in parallel paths or not, flat or around a centre."""
 
     name: str
     description: str
-    layers: tuple[Layer, ...]
+    layers: tuple[Layer, ...]  # of the widest path where there are several
     source: str  # of the stack as a whole, as in `Quantity.source`
+    paths: tuple[ThermalPath, ...] = ()  # none where the wall is the same all over; else all, their shares adding to 1
+    shape: str = "slab"  # one of SHAPES
+    radius: float | None = None  # of the exterior face [m]; None for a slab
 
     @property
     def thermal_resistance(self) -> float:
-        """Resistance from face to face, without films [m2 K W-1]."""
+        """Resistance of `layers` as a flat stack from face to face, without films [m2 K W-1]."""
         return sum(layer.thermal_resistance for layer in self.layers)
-
-
-def read_layer(entry: Entry, substances: Mapping[str, Mapping[str, Any]]) -> Layer:
-    """Layer of one [[layer]] entry, its missing numbers from the substance it names."""
-    entry.refuse_unknown(("name", "substance", *_LAYER_BOUNDS))
-    table = dict(entry.table)
-    if "substance" in table:
-        known = substances.get(entry.text("substance"))
-        if known is None:
-            remedy = "use a name of substances.toml" if substances else "give the numbers: this file has no substances"
-            raise entry.error("substance", "unknown substance", remedy)
-        del table["substance"]
-        table = {**known, **table}
-    whole = Entry(where=entry.where, name=entry.name, table=table)
-    keys = ("resistance",) if "resistance" in table else tuple(_MASS_BOUNDS)
-    for key in _MASS_BOUNDS:
-        if key in table and key not in keys:
-            raise whole.error(key, f"both resistance and {key} given", "keep the resistance or the four slab numbers")
-    numbers = {key: whole.quantity(key, _LAYER_BOUNDS[key]) for key in keys}
-    sources = tuple((key, number.source) for key, number in numbers.items())
-    values = {key: number.value for key, number in numbers.items()}
-    return Layer(name=whole.text("name"), sources=sources, **values)
-
-
-def read_layers(parent: Entry, substances: Mapping[str, Mapping[str, Any]]) -> tuple[Layer, ...]:
-    """Layers of the [[layer]] list of `parent`, exterior first; InputError where one is wrong or nothing is left."""
-    layers = tuple(read_layer(entry, substances) for entry in parent.entries("layer", "layer"))
-    if not layers:
-        raise parent.error("layer", "no layers", "add at least one [[layer]] with a thickness or a resistance")
-    if all(layer.thermal_resistance == 0.0 for layer in layers):
-        raise parent.error("layer", "every layer has thickness 0", "give at least one layer a thickness", len(layers))
-    return layers
-
-
-def read_substances(path: Path) -> Mapping[str, Mapping[str, Any]]:
-    """Layer defaults by name, each number checked here so that a bad one is told with this file's name."""
-    substances = read_toml(path).table
-    for key, table in substances.items():
-        entry = Entry(where=path, name=key, table=table if isinstance(table, Mapping) else {})
-        entry.refuse_unknown(("name", *_LAYER_BOUNDS))
-        entry.text("name")
-        for number in entry.table.keys() & _LAYER_BOUNDS.keys():
-            entry.quantity(number, _LAYER_BOUNDS[number])
-    return substances
 
 
 def read_construction(path: Path) -> Construction:
     """Construction of one TOML file: name, description and source (each optional), then the [[layer]] list."""
     entry = read_toml(path)
-    entry.refuse_unknown(("name", "description", "source", "estimate", "layer"))
+    entry.refuse_unknown(("name", "description", "source", "estimate", *STACK_KEYS))
     source = entry.source()
+    stack = read_stack(entry, {})
     return Construction(
         name=entry.text("name") if "name" in entry.table else path.stem,
         description=entry.text("description") if "description" in entry.table else "",
-        layers=read_layers(entry, {}),
+        layers=stack.layers,
         source=f"file {path.name}" if source == UNSOURCED else source,
+        paths=stack.paths,
+        shape=stack.shape,
+        radius=stack.radius,
     )
 
 
@@ -126,9 +52,12 @@ def construction_names() -> tuple[str, ...]:
 def load_construction(name_or_path: str | Path) -> Construction:
     """Construction by the name of a file in assets/constructions, or from a TOML file of one's own.
 
-    A file holds [[layer]] tables, exterior first, each with a name and either thickness [m], conductivity
+    A file holds [[layer]] tables, exterior first, each with either thickness [m], conductivity
     [W m-1 K-1], density [kg m-3] and specific_heat [J kg-1 K-1], or resistance [m2 K W-1]. A number is plain or
-    { value = .., source = ".." } or { value = .., estimate = "why" }. Thickness 0 is allowed. Raises InputError.
+    { value = .., source = ".." } or { value = .., estimate = "why" }. Thickness 0 is allowed.
+
+    Studs: a [path] table names parallel paths with their shares of the area, `path = "studs"` puts a layer into one of
+    them. Pipes and tanks: shape = "cylinder" or "sphere" with the radius [m] of the exterior face. Raises InputError.
     """
     names = construction_names()
     if isinstance(name_or_path, str) and name_or_path in names:

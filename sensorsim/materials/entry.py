@@ -46,6 +46,7 @@ class Bounds:
 
 POSITIVE = Bounds(low=0.0, high=math.inf, open_low=True, text="a number above 0")
 NOT_NEGATIVE = Bounds(low=0.0, high=math.inf, open_low=False, text="a number of 0 or more")
+SHARE = Bounds(low=0.0, high=1.0, open_low=True, text="a number above 0, up to 1")
 FRACTION = Bounds(low=0.0, high=1.0, open_low=False, text="a number from 0 to 1")
 
 

@@ -6,7 +6,7 @@ from datetime import date
 from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, cached_tables
+from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
 from sensorsim.thermal import Season, season_of
@@ -42,7 +42,7 @@ def build_world(
     environment = build_environment(
         weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
     )
-    season = season_of(environment)
+    scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
     tables = cached_tables(
         environment,

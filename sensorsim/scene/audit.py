@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 
+from sensorsim.errors import InputError
 from sensorsim.scene.counts import Counts
 from sensorsim.scene.features import Feature
 from sensorsim.scene.load import Scene
@@ -24,7 +25,7 @@ class WordUse:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
-    """Features that figure 10 leaves out, names twice or contradicts, and the words used for them."""
+    """Features that figure 10 leaves out, names twice or contradicts, or that go by class; the words used for them."""
 
     numbers: tuple[str, ...]
     description: str
@@ -57,7 +58,15 @@ class Audit:
 
 
 def audit_scene(scene: Scene, catalogue_codes: Mapping[int, str], word_notes: Mapping[str, str]) -> Audit:
-    """Audit of a scene against a catalogue's codes (code: name) and its notes on words (word: reading chosen)."""
+    """Audit of a scene against a catalogue's codes (code: name) and its notes on words (word: reading chosen).
+
+    InputError where a feature still waits for the sections of its construction class, which a catalogue resolves.
+    """
+    for feature in scene.features:
+        if not (feature.roof_word_used and feature.wall_word_used):
+            problem, remedy = "its sections are not resolved", "resolve the scene with the catalogue first"
+            entry = f"feature {feature.number}: construction_class"
+            raise InputError(scene.name, entry, feature.construction_class, problem, remedy)
     parts = [part for feature in scene.features for part in feature.parts]
     return Audit(
         scene=scene.name,
@@ -98,7 +107,7 @@ def _word_uses(scene: Scene, codes: Mapping[int, str], notes: Mapping[str, str])
             area=float(table.area[table.word == word].sum()),
             note=notes.get(word, ""),
         )
-        for word in sorted(set(roofs) | set(walls))
+        for word in sorted({*roofs, *walls, *table.word.tolist()})
     )
 
 

@@ -52,10 +52,13 @@ class Feature:
     level: int | None  # K
     roof_word: str | None  # as printed in figure 10; None where the feature is not listed there
     wall_word: str | None
-    roof_word_used: str
+    roof_word_used: str  # empty where the construction class decides, as the next
     wall_word_used: str
     word_note: str  # why the words used were chosen; empty where figure 10 is unambiguous
     interior: Interior
     interior_note: str
     note: str  # on the outline and heights; may be empty
     parts: tuple[Part, ...]
+    construction_class: str | None = None  # by section 3.5, for surfaces that no word describes
+    interior_stated: bool = True  # False where `interior` is only what solids or planes usually have
+    heat_gain: float = 0.0  # of people, lamps and machines inside [W per m2 of floor]

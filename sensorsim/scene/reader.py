@@ -6,8 +6,10 @@ Required per feature: a Polygon or MultiPolygon and `height` [m] or `height_ft`.
     base or min_height (or _ft)    0 m
     top (or _ft)                   the height; where height is 0 or top equals base, a plane at the base
     has_bottom                     true for solids
+    construction_class             none; with one, surfaces without a word get the sections of that class
     word, or roof_word, wall_word  6730 (built-up roof) and 2040 (brick) for solids, 9420 (cut grass) for planes
-    interior                       heated for solids, none for planes
+    interior                       that of the construction class; else heated for solids, none for planes
+    heat_gain                      0 W per m2 of floor
 
 A file with the top-level member `level` is a feature analysis sheet: there every column A to K must be present,
 null where the sheet has a dash, so that a lost column is told and not guessed.
@@ -94,7 +96,7 @@ def _feature(entry: Entry, name: str, geometry: object) -> Feature:
     parts, height = _parts(entry, geometry)
     is_plane = parts[0].is_plane
     roof_word, wall_word = entry.word("roof_word"), entry.word("wall_word")
-    either = entry.word("word") or (DEFAULT_PLANE_WORD if is_plane else None)
+    roof_default, wall_default = _default_words(entry, is_plane)
     return Feature(
         number=name,
         description=entry.text("description"),
@@ -110,14 +112,33 @@ def _feature(entry: Entry, name: str, geometry: object) -> Feature:
         level=entry.whole("level"),
         roof_word=roof_word,
         wall_word=wall_word,
-        roof_word_used=entry.word("roof_word_used") or roof_word or either or DEFAULT_ROOF_WORD,
-        wall_word_used=entry.word("wall_word_used") or wall_word or either or DEFAULT_WALL_WORD,
+        roof_word_used=entry.word("roof_word_used") or roof_word or roof_default,
+        wall_word_used=entry.word("wall_word_used") or wall_word or wall_default,
         word_note=entry.text("word_note"),
         interior=_interior(entry, is_plane),
         interior_note=entry.text("interior_note"),
         note=entry.text("note"),
         parts=parts,
+        construction_class=entry.text("construction_class") or None,
+        interior_stated=bool(entry.text("interior")),
+        heat_gain=_heat_gain(entry),
     )
+
+
+def _default_words(entry: Entry, is_plane: bool) -> tuple[str, str]:
+    """Words of roof and walls that have none of their own; empty where the construction class is to say."""
+    if (either := entry.word("word")) is not None:
+        return either, either
+    if entry.text("construction_class"):
+        return "", ""
+    return (DEFAULT_PLANE_WORD, DEFAULT_PLANE_WORD) if is_plane else (DEFAULT_ROOF_WORD, DEFAULT_WALL_WORD)
+
+
+def _heat_gain(entry: Entry) -> float:
+    value = entry.real("heat_gain") or 0.0
+    if value < 0.0:
+        entry.refuse("heat_gain", value, "below 0", "give watts per square metre of floor")
+    return value
 
 
 def _interior(entry: Entry, is_plane: bool) -> Interior:

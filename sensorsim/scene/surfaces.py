@@ -12,6 +12,7 @@ from sensorsim.scene.projection import FloatArray
 
 IntArray = NDArray[np.int32]
 TextArray = NDArray[np.str_]
+BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -24,6 +25,9 @@ class Surfaces:
     part: IntArray  # part within its feature, shape (n,)
     role: TextArray  # 'roof', 'wall', 'bottom' or 'plane', shape (n,)
     word: TextArray  # four-digit material word used: the wall's for walls and bottoms, else the roof's, shape (n,)
+    by_class: (
+        BoolArray  # whether the feature's construction class decides the section; its word may be empty, shape (n,)
+    )
     interior: TextArray  # condition behind the surface, shape (n,)
 
 
@@ -43,6 +47,7 @@ def build_surfaces(features: Sequence[Feature], facets: Sequence[Sequence[Sequen
         part=np.array([part for _, _, part in rows], dtype=np.int32),
         role=np.array([facet.role for facet, _, _ in rows]),
         word=np.array(words, dtype="<U4"),
+        by_class=np.array([not word for word in words]),
         interior=np.array([features[index].interior for _, index, _ in rows], dtype="<U8"),
     )
 

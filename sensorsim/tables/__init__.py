@@ -2,6 +2,7 @@
 
 from sensorsim.tables.bake import bake_tables
 from sensorsim.tables.cache import CACHE_VARIABLE, cache_folder, cached_tables
+from sensorsim.tables.classes import resolve_classes
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.lookup_table import LookupTable
 from sensorsim.tables.orientations import LAYOUTS, OrientationSet, orientation_set
@@ -23,5 +24,6 @@ __all__ = [
     "fit_polynomials",
     "orientation_set",
     "preset",
+    "resolve_classes",
     "surface_temperature",
 ]

@@ -5,9 +5,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.errors import InputError
-from sensorsim.materials import Catalogue, Coverage, MaterialWord, WallType, nir_reflectance, part_reflectance
+from sensorsim.materials import (
+    Catalogue,
+    Coverage,
+    MaterialWord,
+    Section,
+    WallType,
+    nir_reflectance,
+    part_reflectance,
+)
 from sensorsim.materials.material import OUTDOOR_GROUPS
 from sensorsim.scene import Feature, Scene
+from sensorsim.tables.classes import resolve_classes
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.season import Season
 
@@ -21,7 +30,7 @@ class Assignment:
 
     wall_types: tuple[WallType, ...]
     wall_type: IntArray  # (s,) row in wall_types
-    reflectance: FloatArray  # (s,) solar [-]
+    reflectance: FloatArray  # (s,) solar, of what is not absorbed [-]
     nir_reflectance: FloatArray  # (s,) 0.8-1.1 um [-]
     emissivity: FloatArray  # (s,) 8-14 um [-]
 
@@ -29,26 +38,24 @@ class Assignment:
 def assign_wall_types(scene: Scene, catalogue: Catalogue, season: Season = MILD) -> Assignment:
     """Resolve every surface's material word; each material under each interior condition is one wall type.
 
-    Deciduous trees are bare and grounds under snow, as the season has it. Blocks are mixed by the roof and tree
-    coverage of their feature's sheet.
+    Surfaces that go by their construction class get its sections. What passes a pane does not warm it, so that glass
+    goes into the tables with its transmittance added to its reflectance. Deciduous trees are bare and grounds under
+    snow, as the season has it. Blocks are mixed by the roof and tree coverage of their feature's sheet.
     """
+    scene = resolve_classes(scene, catalogue)
     rows: dict[WallType, int] = {}
-    surfaces = scene.surfaces
-    count = surfaces.word.size
+    count = scene.surfaces.word.size
     wall_type = np.zeros(count, dtype=np.int64)
     reflectance, nir, emissivity = np.zeros(count), np.zeros(count), np.zeros(count)
     for row in range(count):
         word, _ = resolve_surface_word(scene, catalogue, row)
-        word = _under_snow(word, catalogue) if season.snow and surfaces.role[row] == "plane" else word
-        wall = catalogue.wall_type(
-            word.code,
-            str(surfaces.interior[row]),
-            leafless=season.leafless,
-            coverage=_coverage(scene.features[int(surfaces.feature[row])]),
-            side=str(surfaces.role[row]) in ("wall", "bottom"),
-        )
+        covered = season.snow and scene.surfaces.role[row] == "plane" and _takes_snow(catalogue, word.code)
+        word = _snow_word(catalogue) if covered else word
+        section = None if covered else _section(scene, catalogue, row)
+        wall = _wall_type(scene, catalogue, row, word.code, section=section, leafless=season.leafless)
         wall_type[row] = rows.setdefault(wall, len(rows))
-        reflectance[row] = word.reflectance
+        transmittance = catalogue.material(word.code).solar_transmittance.value
+        reflectance[row] = min(word.reflectance + transmittance, 1.0)
         nir[row] = _nir_reflectance(catalogue, wall, word.reflectance, leafless=season.leafless)
         emissivity[row] = wall.emissivity
     return Assignment(
@@ -61,15 +68,18 @@ def resolve_surface_word(scene: Scene, catalogue: Catalogue, row: int) -> tuple[
     try:
         return catalogue.resolve_word(str(scene.surfaces.word[row]))
     except InputError as error:
-        where = f"{scene.files[0]}, feature {scene.features[int(scene.surfaces.feature[row])].number}"
+        where = _where(scene, row)
         problem = f"{error.problem} in {error.where}"
         raise InputError(where, error.entry, error.value, problem, error.remedy) from error
 
 
-def _under_snow(word: MaterialWord, catalogue: Catalogue) -> MaterialWord:
-    """The word of snow in place of a ground's own; blocks keep theirs, as their roofs and trees are not covered."""
-    if catalogue.material(word.code).group not in OUTDOOR_GROUPS or catalogue.material(word.code).group == "water":
-        return word
+def _takes_snow(catalogue: Catalogue, code: int) -> bool:
+    """Whether snow hides a plane of this code; blocks show on, as their roofs and trees are not covered."""
+    group = catalogue.material(code).group
+    return group in OUTDOOR_GROUPS and group != "water"
+
+
+def _snow_word(catalogue: Catalogue) -> MaterialWord:
     return MaterialWord(code=SNOW_CODE, reflectance=catalogue.material(SNOW_CODE).solar_reflectance)
 
 
@@ -94,3 +104,36 @@ def _nir_reflectance(catalogue: Catalogue, wall: WallType, reflectance: float, *
     if leafless and material.leafless is not None:
         own *= material.leafless.reflectance_nir.value / material.reflectance_nir.value
     return own
+
+
+def _section(scene: Scene, catalogue: Catalogue, row: int) -> Section | None:
+    """Section of a surface that goes by its construction class."""
+    name = scene.features[int(scene.surfaces.feature[row])].construction_class
+    if name is None or not scene.surfaces.by_class[row]:
+        return None
+    return catalogue.construction_class(name).section_of(str(scene.surfaces.role[row]))
+
+
+def _wall_type(
+    scene: Scene, catalogue: Catalogue, row: int, code: int, *, section: Section | None, leafless: bool
+) -> WallType:
+    """Wall type of one surface of a scene whose classes are resolved."""
+    surfaces, feature = scene.surfaces, scene.features[int(scene.surfaces.feature[row])]
+    name = feature.construction_class
+    try:
+        return catalogue.wall_type(
+            code,
+            str(surfaces.interior[row]),
+            section=section,
+            room=None if name is None else catalogue.construction_class(name).room,
+            heat_gain=feature.heat_gain,
+            leafless=leafless,
+            coverage=_coverage(feature),
+            side=str(surfaces.role[row]) in ("wall", "bottom"),
+        )
+    except InputError as error:
+        raise InputError(_where(scene, row), error.entry, error.value, error.problem, error.remedy) from error
+
+
+def _where(scene: Scene, row: int) -> str:
+    return f"{scene.files[0]}, feature {scene.features[int(scene.surfaces.feature[row])].number}"

@@ -14,12 +14,11 @@ from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.mixture import mix_coefficients
 from sensorsim.tables.orientations import FloatArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
-from sensorsim.thermal.grid import build_grid
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.march import march
 from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
+from sensorsim.thermal.paths import march_paths
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -88,13 +87,19 @@ def _solve_wall(
     reflectances = np.asarray(settings.reflectances, dtype=np.float64)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
     inside = build_interior(
-        wall.interior, environment.air_temperature, environment.wind_speed, environment.step, wall.interior_emissivity
+        wall.interior,
+        environment.air_temperature,
+        environment.wind_speed,
+        environment.step,
+        wall.interior_emissivity,
+        room=wall.room,
+        heat_gain=wall.heat_gain,
     )
-    grid, water = build_grid(wall.layers, environment.step), wall.cover is not None and wall.cover.kind == "water"
+    water = wall.cover is not None and wall.cover.kind == "water"
     # Water remembers weeks; it starts from the mean of the air that it has mixed in.
-    start = np.full(grid.capacity.size, float(np.mean(environment.air_temperature))) if water else None
-    history = march(
-        wall.layers, outside, inside, 1.0 - reflectances, step=environment.step, record=record, grid=grid, start=start,
+    start = float(np.mean(environment.air_temperature)) if water else None
+    history = march_paths(
+        wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record, start=start,
         melting_depth=melting_depth(wall),
     )  # fmt: skip
     exterior = history.exterior

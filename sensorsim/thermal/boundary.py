@@ -49,6 +49,15 @@ class Inside(NamedTuple):
     emissivity: float
 
 
+def per_exterior_area(inside: Inside, area: float) -> Inside:
+    """What acts on an interior face of `area` times the exterior one [-], per unit of exterior area."""
+    if area == 1.0:
+        return inside
+    if area == 0.0:  # a solid: no heat passes, and a film of any size lets the idle face find its balance
+        return inside._replace(film=np.ones_like(inside.film), free=0.0, emissivity=0.0)
+    return inside._replace(film=area * inside.film, free=area**3 * inside.free, emissivity=area * inside.emissivity)
+
+
 class Columns(NamedTuple):
     """State of all columns, updated in place."""
 

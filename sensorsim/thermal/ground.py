@@ -11,8 +11,8 @@ from sensorsim.materials import WallType
 from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.heat_balance import expose
 from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.march import march
 from sensorsim.thermal.natural import melting_depth, surface_boundary
+from sensorsim.thermal.paths import march_paths
 
 
 def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "perez") -> FloatArray:
@@ -25,8 +25,8 @@ def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "
         "none", environment.air_temperature, environment.wind_speed, environment.step, soil.interior_emissivity
     )
     samples = np.arange(environment.time.size)
-    history = march(
-        soil.layers, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples,
+    history = march_paths(
+        soil, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples,
         melting_depth=melting_depth(soil),
     )  # fmt: skip
     temperature = history.exterior[:, 0, 0]

@@ -8,7 +8,7 @@ import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside
+from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import GAMMA, advance
@@ -44,7 +44,8 @@ def march(
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
     The start is linear between interior and exterior air, as in section 3.6.1 of [Report1978], unless cell
-    temperatures `start` (n,) [K] are given.
+    temperatures `start` (n,) [K] are given. The inside of a curved `grid` is given per its own area, as elsewhere;
+    heats come per exterior area. A solid one has no inside: its innermost cell stands for the interior face.
 
     Snow down to `melting_depth` [m] melts rather than warm: after each step its cells are set back to 0 C, and the heat
     taken from them is counted. Within the step its face gets above 0 C by some kelvin at most and loses more heat
@@ -52,7 +53,7 @@ def march(
     """
     grid = build_grid(layers, step) if grid is None else grid
     cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
-    outside, inside = _plain_outside(outside), Inside(*(_plain(value) for value in inside))
+    outside, inside = _plain_outside(outside), _plain_inside(inside, grid)
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior, interior = np.zeros((record.size, *shape)), np.zeros((record.size, *shape))
@@ -67,7 +68,7 @@ def march(
             melted += _melt(columns, melting)
             sample = stop
         exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
-        interior[row] = columns.faces[1].reshape(shape) + ZERO_CELSIUS
+        interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
         if nodes is not None:
             nodes[row] = columns.cells.reshape(-1, *shape) + ZERO_CELSIUS
     return History(
@@ -82,9 +83,18 @@ def march(
     )
 
 
+def _innermost(columns: Columns, grid: WallGrid) -> FloatArray:
+    """Temperature (m,) [C] of the interior face, in a solid wall of the cell around its centre."""
+    return np.asarray(columns.faces[1] if grid.interior_area > 0.0 else columns.cells[-1])
+
+
 def _plain_outside(outside: Outside) -> Outside:
     vapour = outside.vapour if outside.vapour.size else np.zeros_like(outside.air)
     return Outside(*(_plain(value) for value in outside._replace(vapour=vapour)))
+
+
+def _plain_inside(inside: Inside, grid: WallGrid) -> Inside:
+    return Inside(*(_plain(value) for value in per_exterior_area(inside, grid.interior_area)))
 
 
 def _plain(value: Any) -> Any:

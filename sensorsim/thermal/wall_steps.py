@@ -1,0 +1,132 @@
+"""One wall on its way through a boundary series: equal steps within each interval, so that none crosses a sample.
+
+The linear part is factored once for each length of step that occurs.
+"""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.constants import ZERO_CELSIUS
+from sensorsim.errors import NumericsError
+from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside
+from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, LayerLike, WallGrid, build_grid
+from sensorsim.thermal.kernel import GAMMA, advance
+from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, conditions
+
+FACTORS_KEPT = 512
+BLOCK = 8192  # steps whose conditions are laid out at once
+FINER = 0.5  # cell sizes over those of a bake: one wall can afford a quarter of the error in space
+FINEST = 1.0  # [s] a shorter step asks for no finer cells
+FOREVER = 1e15  # [s] after which a wall under constant conditions is steady
+AT_ONCE = 1e-6  # [s] in which faces, which hold no heat, come to their balance and cells stay as they are
+
+
+class WallSteps:
+    """Temperatures of a wall's cells and faces, and the heat that has entered; one caller at a time."""
+
+    def __init__(self, grid: WallGrid, surface: WallSurface) -> None:
+        self.grid, self.surface = grid, surface
+        self.columns = Columns(
+            cells=np.zeros((grid.capacity.size, 1)),
+            faces=np.zeros((2, 1)),
+            films=np.ones((2, 1)),
+            heat=np.zeros((2, 1)),
+            orientation=np.zeros(1, dtype=np.int64),
+            absorptance=np.array([surface.absorptance]),
+        )
+        self._factors: dict[float, tuple[Cells, Cells]] = {}
+
+    @property
+    def state(self) -> FloatArray:
+        """Heat entered through both faces [J m-2], temperatures of both faces and the cells [K]: (n + 4,)."""
+        columns = self.columns
+        temperatures = np.concatenate([columns.faces[:, 0], columns.cells[:, 0]]) + ZERO_CELSIUS
+        return np.concatenate([columns.heat[:, 0], temperatures])
+
+    def put_line(self, exterior: float, interior: float) -> None:
+        """Steady conduction between face temperatures [K]."""
+        reach = np.concatenate([[0.0], np.cumsum(1.0 / self.grid.conductance)])
+        line = exterior + (interior - exterior) * reach / reach[-1] - ZERO_CELSIUS
+        self.columns.cells[:, 0], self.columns.faces[:, 0] = line[1:-1], line[[0, -1]]
+
+    def hold(self, boundary: WallBoundary, row: int, span: float) -> None:
+        """One step of `span` [s] under the conditions of a sample; the heat of it does not count."""
+        outside, inside = conditions(boundary, self.surface, np.array([row, row]), np.zeros(2))
+        before = self.columns.heat.copy()
+        self._advance(outside, inside, 0, 1, span)
+        self.columns.heat[:] = before
+
+    def cross(self, boundary: WallBoundary, counts: NDArray[np.int64], first: int, last: int) -> FloatArray:
+        """March from sample `first` to `last` in `counts` steps an interval.
+
+        Returns the `state` (n + 4, last - first) at the samples after the first.
+        """
+        outside, inside = lay_out(boundary, self.surface, counts, first, last)
+        passed = np.zeros((self.grid.capacity.size + 4, last - first))
+        begin = 0
+        for i in range(first, last):
+            end = begin + int(counts[i])
+            self._advance(outside, inside, begin, end, float(boundary.time[i + 1] - boundary.time[i]) / (end - begin))
+            passed[:, i - first] = self.state
+            begin = end
+        return passed
+
+    def _advance(self, outside: Outside, inside: Inside, begin: int, end: int, step: float) -> None:
+        # Newton's cube root comes down to a film fast and comes up from a film of zero slowly: begin above both ends.
+        self.columns.films[0] = max(outside.film[begin, 0], outside.film[end, 0], 1e-9)
+        self.columns.films[1] = max(inside.film[begin], inside.film[end], 1e-9)
+        step = float(f"{step:.8e}")  # so that steps alike to nine digits, as times with fractions have, share factors
+        cells, damped = self._factored(step)
+        failures = advance(self.columns, cells, damped, outside, inside, begin, end, step)
+        if failures or not np.all(np.isfinite(self.columns.faces)):
+            raise NumericsError("heat balance of a wall did not converge")
+
+    def _factored(self, step: float) -> tuple[Cells, Cells]:
+        """Linear part for a step [s] of two stages and of one."""
+        if step not in self._factors:
+            if len(self._factors) >= FACTORS_KEPT:
+                self._factors.clear()
+            self._factors[step] = factor(self.grid, GAMMA * step, step), factor(self.grid, step, step)
+        return self._factors[step]
+
+
+def step_counts(time: FloatArray, step: float) -> NDArray[np.int64]:
+    """Equal steps of at most `step` [s] in each interval between times (t,) [s]: (t - 1,)."""
+    return np.asarray(np.maximum(1, np.ceil(np.diff(time) / step - 1e-9)), dtype=np.int64)
+
+
+def wall_grid(layers: Sequence[LayerLike], time: FloatArray, counts: NDArray[np.int64]) -> WallGrid:
+    """Cells fine enough for the shortest step of a series."""
+    shortest = max(float(np.min(np.diff(time) / counts)), FINEST)
+    return build_grid(
+        layers,
+        shortest,
+        step_fraction=FINER * STEP_FRACTION,
+        day_fraction=FINER * DAY_FRACTION,
+        growth=FINER * GROWTH,
+    )
+
+
+def lay_out(
+    boundary: WallBoundary, surface: WallSurface, counts: NDArray[np.int64], first: int, last: int
+) -> tuple[Outside, Inside]:
+    """Conditions at the ends of all steps from sample `first` to `last`."""
+    steps = counts[first:last]
+    row = np.append(np.repeat(np.arange(first, last), steps), last)
+    begins = np.repeat(np.cumsum(steps) - steps, steps)
+    share = np.append((np.arange(begins.size) - begins) / np.repeat(steps, steps), 0.0)
+    return conditions(boundary, surface, row, share)
+
+
+def blocks(counts: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """First and last sample of stretches of about BLOCK steps."""
+    ends = np.cumsum(counts)
+    marks = [0]
+    while marks[-1] < counts.size:
+        done = ends[marks[-1] - 1] if marks[-1] else 0
+        marks.append(max(int(np.searchsorted(ends, done + BLOCK, side="right")), marks[-1] + 1))
+    return list(pairwise(marks))
