@@ -30,6 +30,6 @@ def test_page_holds_text_tables_and_pictures_and_loads_nothing(tmp_path: Path) -
 
 
 def test_page_refuses_a_place_that_cannot_be_written(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"page .*page\.html"):
+    with pytest.raises(InputError, match="cannot be written: No such file"):
         Page("x").write(tmp_path / "nowhere" / "page.html")
     assert not list(tmp_path.iterdir())
