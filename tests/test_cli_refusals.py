@@ -216,3 +216,16 @@ def test_long_value_is_cut_so_that_the_line_stays_one(refuse: Refuse, tmp_path: 
     told = refuse("render", "hospital", "--at", value, "--out", tmp_path / "x.png")
     assert "..." in told
     assert len(told) < 400
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--planes", "warmth"), ("--planes", "radiance", "--plane-format", "png"), ("--out", "x.jpg")],
+    ids=["plane", "format", "suffix"],
+)
+def test_what_cannot_be_written_is_refused_before_the_scene_is_read(
+    refuse: Refuse, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    """Rationale: a scene that is not there would be the error of a command that had begun to work."""
+    out = () if "--out" in words else ("--out", tmp_path / "x.png")
+    assert "nowhere" not in refuse("render", "nowhere", "--at", AT, *out, *words)

@@ -236,7 +236,15 @@ BAD: dict[str, tuple[str, tuple[str, ...], str]] = {
     "missing": (ROWS, REST[2:], "in.csv: column = 'sky_temperature': missing; add the column [C], or give --sky-temp"),
     "missing film": (ROWS, REST[:-2], "column = 'interior_film': missing; add the column [W m-2 K-1], or give"),
     "unknown column": (
-        ROWS.replace("air_temperature", "air_temprature"), REST, "line 1: column = 'air_temprature': unknown; rename",
+        ROWS.replace("air_temperature", "air_temprature"), REST,
+        "line 1: column = 'air_temprature': unknown; rename it to air_temperature, in C, or",
+    ),
+    "column with a unit": (
+        ROWS.replace("air_temperature", "Air Temperature [K]"), REST,
+        "line 1: column = 'Air Temperature [K]': unknown; rename it to air_temperature, in C, or remove it",
+    ),
+    "column of nothing": (
+        ROWS.replace("air_temperature", "rainfall"), REST, "line 1: column = 'rainfall': unknown; rename or remove it;",
     ),
     "column twice": (
         ROWS.replace("time,", "time,air_temperature,"), REST, "line 1: column = 'air_temperature': there twice",

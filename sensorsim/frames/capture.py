@@ -5,9 +5,9 @@ from datetime import datetime
 import numpy as np
 
 from sensorsim.errors import InputError
-from sensorsim.frames.frame import JSON, Frame, build_frame
+from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.render import Camera, Picture, Renderer
-from sensorsim.sensor import DisplaySettings
+from sensorsim.sensor import DisplaySettings, Sensor
 from sensorsim.version import __version__
 
 
@@ -17,6 +17,12 @@ def take_frame(
     """Frame at a local standard time (or one with an offset) of the world's image day."""
     picture = renderer.render(camera, seconds_after_midnight(renderer, at), display=display)
     return build_frame(picture.planes, frame_settings(renderer, picture))
+
+
+def plane_names(sensor: Sensor) -> tuple[str, ...]:
+    """Planes that a frame of a sensor has: only what it emits gives a scene an apparent temperature."""
+    missing = () if sensor.mode == "emissive" else ("apparent_temperature",)
+    return tuple(name for name in STANDARD_PLANES if name not in missing)
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
