@@ -55,6 +55,12 @@ def render(
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     preset: Preset = "standard",
+    exchange: Annotated[
+        bool,
+        typer.Option(
+            "--exchange", help="Near surfaces see each other by long waves and diffuse light, without shadows."
+        ),
+    ] = False,
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
@@ -69,9 +75,10 @@ def render(
     view = read_camera(place, camera, field_of_view)
     series = find_weather(weather, local_day(moment, place.site.utc_offset))
     day = local_day(moment, series.site.utc_offset)
+    settings = replace(bake_preset(preset), exchange=exchange)
     make_folder(out.parent)
     with bake_progress("baking") as progress:
-        world = build_world(place, series, image_day=day, settings=bake_preset(preset), progress=progress)
+        world = build_world(place, series, image_day=day, settings=settings, progress=progress)
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend) as renderer:

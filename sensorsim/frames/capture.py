@@ -8,6 +8,7 @@ from sensorsim.errors import InputError
 from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.render import Camera, Picture, Renderer
 from sensorsim.sensor import DisplaySettings, Sensor
+from sensorsim.tables import SurfaceOffsets
 from sensorsim.version import __version__
 
 
@@ -57,6 +58,7 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         "time_of_day_s": picture.time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
+        "exchange": _exchange_settings(world.offsets),
         "sensor": {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode},
         "size": list(renderer.size),
         "camera": _camera_settings(renderer, picture.camera),
@@ -68,6 +70,16 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         },
         "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
     }
+
+
+def _exchange_settings(offsets: SurfaceOffsets | None) -> JSON:
+    """What near surfaces do to each other, where they were asked for."""
+    if offsets is None:
+        return None
+    largest = float(np.max(np.abs(offsets.offset), initial=0.0))
+    return {
+        "surfaces": offsets.surface.size, "passes": offsets.passes, "left_K": offsets.left, "largest_K": largest
+    }  # fmt: skip
 
 
 def _camera_settings(renderer: Renderer, camera: Camera) -> dict[str, JSON]:

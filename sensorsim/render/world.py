@@ -6,7 +6,14 @@ from datetime import date
 from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
+from sensorsim.tables import (
+    BakeSettings,
+    ShadeTables,
+    SurfaceOffsets,
+    cached_tables,
+    near_surface_offsets,
+    resolve_classes,
+)
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
 from sensorsim.thermal import Season, season_of
@@ -24,6 +31,7 @@ class World:
     season: Season
     assignment: Assignment
     tables: ShadeTables
+    offsets: SurfaceOffsets | None  # of near surfaces, where the settings ask for their exchange
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
@@ -44,13 +52,13 @@ def build_world(
     )
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
-    tables = cached_tables(
-        environment,
-        assignment.wall_types,
-        ground=catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none"),
-        settings=settings,
-        progress=progress,
-    )
+    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
+    offsets = None
+    if settings.exchange:
+        offsets = near_surface_offsets(
+            scene, assignment, environment, ground=ground, settings=settings, time_of_day=tables.time_of_day
+        )
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
@@ -61,5 +69,6 @@ def build_world(
         season=season,
         assignment=assignment,
         tables=tables,
+        offsets=offsets,
         warnings=() if mismatch is None else (mismatch,),
     )

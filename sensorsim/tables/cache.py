@@ -9,7 +9,7 @@ import io
 import os
 import zipfile
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Any
@@ -74,7 +74,8 @@ def inputs_digest(
         value = getattr(environment, field.name)
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
-    digest.update(repr((tuple(wall_types), ground, settings)).encode())
+    tabled = replace(settings, exchange=False)  # comes on top of the tables
+    digest.update(repr((tuple(wall_types), ground, tabled)).encode())
     package = Path(__file__).resolve().parent.parent
     for name in _CODE:
         source = package / name

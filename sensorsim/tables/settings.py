@@ -23,6 +23,7 @@ class BakeSettings:
     lead_in_days: float = 3.0  # before the image day
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
+    exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
 
     def __post_init__(self) -> None:
         """Refuse what cannot be solved or fitted."""
@@ -42,6 +43,7 @@ class BakeSettings:
             ),
             ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
             ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
+            ("exchange", not isinstance(self.exchange, bool), "use True or False"),
             ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
         ):
             if broken:

@@ -6,14 +6,15 @@ neighbours, back and forth as often as it takes. Sent by Lambert's law, J = own 
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csc_array, eye_array
-from scipy.sparse.linalg import splu
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.thermal.exchange import Exchange
 
 FloatArray = NDArray[np.float64]
+
+BOUNCED = 1e-13  # of the largest radiosity, that a further bounce may add
+MOST_BOUNCES = 2000
 
 
 def radiosity(
@@ -26,12 +27,14 @@ def radiosity(
     """
     received = _column(sky) * exchange.sky_share + _column(ground) * exchange.ground_share
     source = np.asarray(own + reflectance * received)
-    system = csc_array(eye_array(reflectance.size) - reflectance[:, None] * exchange.matrix())
-    try:
-        sent = splu(system).solve(np.ascontiguousarray(np.atleast_2d(source).T)).T
-    except RuntimeError as error:
-        raise NumericsError(f"exchange between surfaces that absorb nothing: {error}") from error
-    return np.asarray(sent.reshape(source.shape))
+    back = (reflectance[:, None] * exchange.matrix()).T
+    sent = source
+    for _ in range(MOST_BOUNCES):
+        further = np.asarray(source + sent @ back)
+        if np.max(np.abs(further - sent), initial=0.0) <= BOUNCED * np.max(np.abs(further), initial=0.0):
+            return further
+        sent = further
+    raise NumericsError(f"exchange between surfaces that absorb next to nothing: no end after {MOST_BOUNCES} bounces")
 
 
 def change_by_neighbours(
