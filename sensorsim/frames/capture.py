@@ -4,11 +4,12 @@ from datetime import datetime
 
 import numpy as np
 
+from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.errors import InputError
 from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.render import Camera, Picture, Renderer
 from sensorsim.sensor import DisplaySettings, Sensor
-from sensorsim.tables import SurfaceOffsets
+from sensorsim.tables import ShadeTables, SurfaceOffsets
 from sensorsim.version import __version__
 
 
@@ -58,6 +59,7 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         "time_of_day_s": picture.time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
+        "lead_in": _lead_in_settings(world.tables),
         "exchange": _exchange_settings(world.offsets),
         "sensor": {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode},
         "size": list(renderer.size),
@@ -70,6 +72,13 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         },
         "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
     }
+
+
+def _lead_in_settings(tables: ShadeTables) -> JSON:
+    """From how long before the image day walls were marched, and which began with their first day repeated."""
+    hours = [one.span / SECONDS_PER_HOUR for one in tables.lead_in]
+    repeated = [wall.name for wall, one in zip(tables.wall_types, tables.lead_in, strict=True) if one.repeated]
+    return {"shortest_h": min(hours), "longest_h": max(hours), "first_day_repeated": list(dict.fromkeys(repeated))}
 
 
 def _exchange_settings(offsets: SurfaceOffsets | None) -> JSON:

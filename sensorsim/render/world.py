@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import date
 
-from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
+from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import (
@@ -47,9 +47,8 @@ def build_world(
     """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
-    environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")

@@ -17,6 +17,7 @@ from sensorsim.tables.orientations import FloatArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
+from sensorsim.thermal.lead_in import lead_in_of
 from sensorsim.thermal.natural import surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
@@ -37,7 +38,9 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     orientations = orientation_set(settings.orientations)
-    soil = ground_temperature(environment, ground, sky=settings.sky)
+    own = settings.lead_in_days is None
+    repeated = lead_in_of(ground, environment, own=own).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
     exposure = expose(environment, orientations.normal, soil, sky=settings.sky)
     record = _slices(environment, settings)
 
@@ -61,6 +64,7 @@ def bake_tables(
         coefficients=np.stack(rows, axis=1).astype(np.float32),
         ground_temperature=soil[record],
         settings=settings,
+        lead_in=tuple(lead_in_of(wall, environment, own=own) for wall in wall_types),
     )
 
 
@@ -85,5 +89,6 @@ def _solve_wall(
     """Coefficients (t, o, p) [K] of one wall type."""
     reflectances = np.asarray(settings.reflectances, dtype=np.float64)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
-    exterior = wall_history(environment, outside, wall, 1.0 - reflectances, record)
+    lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
+    exterior = wall_history(environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in)
     return fit_polynomials(exterior, reflectances, settings.degree)

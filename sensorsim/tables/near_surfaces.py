@@ -24,6 +24,7 @@ from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.exchange import Exchange, build_exchange
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, directional_irradiance, expose, reflected_irradiance
+from sensorsim.thermal.lead_in import lead_in_of
 from sensorsim.thermal.neighbour_radiation import change_by_neighbours, longwave_from_neighbours
 from sensorsim.thermal.polygon_view_factors import outlines_of_mesh
 from sensorsim.thermal.view_factors import ground_view_factor, sky_view_factor
@@ -84,7 +85,8 @@ def near_surface_offsets(
     near = group.exchange.neighbour_share > NEAR_SHARE
     if not np.any(near):
         return _offsets(time_of_day, group.row[near], np.zeros((time_of_day.size, 0)), 0, 0.0)
-    soil = ground_temperature(environment, ground, sky=settings.sky)
+    repeated = lead_in_of(ground, environment, own=settings.lead_in_days is None).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
     open_air = expose(environment, group.normal, soil, sky=settings.sky)
     alone = surface_histories(environment, open_air, group.wall, group.reflectance, settings)
     sunlight = open_air.irradiance + _sunlight_change(environment, open_air, group, settings.sky)
