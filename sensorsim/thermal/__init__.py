@@ -28,6 +28,7 @@ from sensorsim.thermal.season import Season, growing_season_index, season_of
 from sensorsim.thermal.view_factors import ground_view_factor, quadrant_view_factors, sky_view_factor
 from sensorsim.thermal.wall import LONGEST_STEP, WallHistory, WallLoads, exterior_loads, march_wall
 from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, build_wall_boundary
+from sensorsim.thermal.wall_paths import march_construction
 from sensorsim.thermal.wall_start import WallStart
 
 __all__ = [
@@ -62,6 +63,7 @@ __all__ = [
     "largest_possible_change",
     "longwave_from_neighbours",
     "march",
+    "march_construction",
     "march_paths",
     "march_wall",
     "outlines_of_mesh",
