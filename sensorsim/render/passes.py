@@ -14,6 +14,14 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "product_picture": 5,
+    "focal_plane": 6,
+    "kernel_table": 7,
+    "column_table": 8,
+    "pattern_table": 9,
+    "row_table": 10,
+    "line_table": 11,
+    "deviate_table": 12,
 }
 
 
@@ -68,13 +76,18 @@ def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass
     )
 
 
+def screen_pass(
+    ctx: moderngl.Context,
+    fragment: str,
+    samplers: tuple[str, ...],
+    defines: Mapping[str, int] | None = None,
+    *,
+    blocks: tuple[UniformBlock, ...] = (),
+) -> Pass:
+    """A pass over the whole picture."""
+    return Pass(ctx, "common/screen.vert", fragment, blocks=blocks, samplers=samplers, generated={}, defines=defines)
+
+
 def display_pass(ctx: moderngl.Context) -> Pass:
     """Grey [0, 1] from band radiance."""
-    return Pass(
-        ctx,
-        "common/screen.vert",
-        "sensor/display.frag",
-        blocks=(DISPLAY,),
-        samplers=("radiance_picture",),
-        generated={},
-    )
+    return screen_pass(ctx, "sensor/display.frag", ("radiance_picture",), blocks=(DISPLAY,))
