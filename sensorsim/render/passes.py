@@ -22,6 +22,10 @@ TEXTURE_UNITS = {
     "row_table": 10,
     "line_table": 11,
     "deviate_table": 12,
+    "last_picture": 13,
+    "block_picture": 14,
+    "baseline_picture": 15,
+    "halo_picture": 14,
 }
 
 

@@ -142,7 +142,8 @@ class Renderer:
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
         if self.sensor.detector is not None:
-            self._chain = SensorChain(ctx, self.sensor, self.size, self.samples, self.blur_energy)
+            energy = self.blur_energy
+            self._chain = SensorChain(ctx, self.sensor, self.size, samples=self.samples, energy=energy)
         self._target = render_target(ctx, drawn, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
@@ -223,11 +224,13 @@ class Renderer:
         """What the detector reports of the frame of that number, as plane `signal` and as the picture on display."""
         if self._chain is None:
             return
-        exposure = exposure_for(self._chain.look, exposed(planes))
+        seen = exposed(planes)
+        exposure, level = exposure_for(self._chain.look, seen), float(np.mean(seen, dtype=np.float64))
         field = float(np.radians(camera.horizontal_field_of_view))
-        report = self._chain.run(self._target.texture("quantities"), field, frame, exposure)
-        planes["signal"] = report.read("reported")[:, :, 0]
-        report.texture("reported").use(TEXTURE_UNITS["radiance_picture"])
+        picture = self._target.texture("quantities")
+        reported = self._chain.run(picture, field, frame, exposure=exposure, level=level)
+        planes["signal"] = self._chain.read("reported")
+        reported.use(TEXTURE_UNITS["radiance_picture"])
 
     def _display(self, settings: DisplaySettings) -> NDArray[np.uint8]:
         low, high = window_limits(settings)

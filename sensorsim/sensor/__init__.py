@@ -13,6 +13,7 @@ from sensorsim.sensor.display import (
 from sensorsim.sensor.focal_plane import column_places, focal_plane
 from sensorsim.sensor.intensifier import Intensifier
 from sensorsim.sensor.load import load_sensor, sensor_names
+from sensorsim.sensor.memory import remember, renewed_share
 from sensorsim.sensor.noise import Noise
 from sensorsim.sensor.optics import Optics
 from sensorsim.sensor.point_spread import Kernel, blur_kernel, system_transfer
@@ -21,8 +22,11 @@ from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_
 from sensorsim.sensor.scan import Scan
 from sensorsim.sensor.sensitivity import Sensitivity, netd, sensitivity
 from sensorsim.sensor.sensor import Sensor
+from sensorsim.sensor.spill import HALO_BLOCK, STREAK_BLOCK, halo_radius, kept_per_block
 
 __all__ = [
+    "HALO_BLOCK",
+    "STREAK_BLOCK",
     "Detector",
     "DisplaySettings",
     "Intensifier",
@@ -43,10 +47,14 @@ __all__ = [
     "focal_plane",
     "frame_noise",
     "grey_level",
+    "halo_radius",
+    "kept_per_block",
     "load_sensor",
     "netd",
     "normal_deviate",
     "read_out",
+    "remember",
+    "renewed_share",
     "sensitivity",
     "sensor_names",
     "stream_seed",
