@@ -7,6 +7,7 @@ import moderngl
 from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
 from sensorsim.gpu.mesh import MeshBuffers
 from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.tables import LookupTable
 
 TEXTURE_UNITS = {
     "surface_table": 0,
@@ -22,6 +23,7 @@ TEXTURE_UNITS = {
     "row_table": 10,
     "line_table": 11,
     "deviate_table": 12,
+    "tone_table": 5,
     "last_picture": 13,
     "block_picture": 14,
     "baseline_picture": 15,
@@ -87,11 +89,27 @@ def screen_pass(
     defines: Mapping[str, int] | None = None,
     *,
     blocks: tuple[UniformBlock, ...] = (),
+    generated: Mapping[str, str] | None = None,
 ) -> Pass:
     """A pass over the whole picture."""
-    return Pass(ctx, "common/screen.vert", fragment, blocks=blocks, samplers=samplers, generated={}, defines=defines)
+    return Pass(
+        ctx,
+        "common/screen.vert",
+        fragment,
+        blocks=blocks,
+        samplers=samplers,
+        generated=generated or {},
+        defines=defines,
+    )
 
 
-def display_pass(ctx: moderngl.Context) -> Pass:
-    """Grey [0, 1] from band radiance."""
-    return screen_pass(ctx, "sensor/display.frag", ("radiance_picture",), blocks=(DISPLAY,))
+def display_pass(ctx: moderngl.Context, curve: LookupTable | None = None) -> Pass:
+    """Grey [0, 1] from band radiance, by a straight line or a curve."""
+    straight = "Ratio tone(Ratio straight) { return straight; }\n"
+    return screen_pass(
+        ctx,
+        "sensor/display.frag",
+        ("radiance_picture",) if curve is None else ("radiance_picture", "tone_table"),
+        blocks=(DISPLAY,),
+        generated={"tone": straight if curve is None else curve.glsl()},
+    )

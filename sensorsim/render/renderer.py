@@ -19,7 +19,15 @@ from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.surface_table import surface_table
 from sensorsim.render.world import World
-from sensorsim.sensor import DisplaySettings, Sensitivity, Sensor, fix_window, window_limits
+from sensorsim.sensor import (
+    TONE_ENTRIES,
+    DisplaySettings,
+    Sensitivity,
+    Sensor,
+    fix_window,
+    tone_curve,
+    window_limits,
+)
 from sensorsim.tables import LookupTable
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 
@@ -94,7 +102,7 @@ class Renderer:
             planes = self._read()
             self._detect(camera, planes, frame)
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
-            planes["display"] = self._display(settings)
+            planes["display"] = self._display(settings, exposed(planes))
         return Picture(
             planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )
@@ -134,11 +142,15 @@ class Renderer:
         emissive = self.sensor.mode == "emissive"
         self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
         self._background = background_pass(ctx, generated)
-        self._show = display_pass(ctx)
         self._build_targets()
 
     def _build_targets(self) -> None:
         ctx = self.ctx
+        curve = LookupTable(
+            name="tone", quantity="Ratio", argument="Ratio", minimum=0.0, maximum=1.0, values=np.zeros(TONE_ENTRIES)
+        )
+        self._tables["tone_table"] = float_table(ctx, "tone_table", curve.texels)
+        self._show, self._show_curve = display_pass(ctx), display_pass(ctx, curve)
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
         if self.sensor.detector is not None:
@@ -232,13 +244,19 @@ class Renderer:
         planes["signal"] = self._chain.read("reported")
         reported.use(TEXTURE_UNITS["radiance_picture"])
 
-    def _display(self, settings: DisplaySettings) -> NDArray[np.uint8]:
+    def _display(self, settings: DisplaySettings, seen: NDArray[np.float32]) -> NDArray[np.uint8]:
         low, high = window_limits(settings)
         black_hot = float(settings.polarity == "black-hot")
         self._blocks["Display"].write(DISPLAY.pack(level=0.5 * (low + high), span=high - low, black_hot=black_hot))
+        show = self._show
+        if not settings.is_straight:
+            show = self._show_curve
+            curve = tone_curve(settings.tone, settings.gamma, seen, low, high)
+            update_table(self._tables["tone_table"], curve[None, :])
+            self._tables["tone_table"].use(TEXTURE_UNITS["tone_table"])
         self._screen.use()
         self.ctx.enable_only(moderngl.NOTHING)
-        self._show.draw()
+        show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
 
 

@@ -23,10 +23,12 @@ from sensorsim.sensor.scan import Scan
 from sensorsim.sensor.sensitivity import Sensitivity, netd, sensitivity
 from sensorsim.sensor.sensor import Sensor
 from sensorsim.sensor.spill import HALO_BLOCK, STREAK_BLOCK, halo_radius, kept_per_block
+from sensorsim.sensor.tone import TONE_ENTRIES, tone_curve
 
 __all__ = [
     "HALO_BLOCK",
     "STREAK_BLOCK",
+    "TONE_ENTRIES",
     "Detector",
     "DisplaySettings",
     "Intensifier",
@@ -59,6 +61,7 @@ __all__ = [
     "sensor_names",
     "stream_seed",
     "system_transfer",
+    "tone_curve",
     "window_from_temperatures",
     "window_limits",
 ]
