@@ -222,7 +222,7 @@ def test_planes_known_ahead_are_those_of_the_frame(monkeypatch: pytest.MonkeyPat
     with pytest.raises(InputError) as refused:
         require_writable("x.png", plane_names(load_sensor("lltv")), planes=["apparent_temperature"])
     assert "radiance" in refused.value.remedy
-    for sensor in ("flir", "lltv"):
+    for sensor in ("flir", "lltv", "uncooled", "emccd"):
         names = [name for name in plane_names(load_sensor(sensor)) if name != "display"]
         sidecar = _render(
             monkeypatch, town, tmp_path / f"{sensor}.png", "--sensor", sensor, "--planes", ",".join(names)

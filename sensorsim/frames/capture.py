@@ -22,9 +22,9 @@ def take_frame(
 
 
 def plane_names(sensor: Sensor) -> tuple[str, ...]:
-    """Planes that a frame of a sensor has: only what it emits gives a scene an apparent temperature."""
-    missing = () if sensor.mode == "emissive" else ("apparent_temperature",)
-    return tuple(name for name in STANDARD_PLANES if name not in missing)
+    """Planes that a frame of a sensor has: a signal by a detector, an apparent temperature in emissive bands."""
+    there = {"signal": sensor.detector is not None, "apparent_temperature": sensor.mode == "emissive"}
+    return tuple(name for name in STANDARD_PLANES if there.get(name, True))
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
