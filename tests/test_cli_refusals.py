@@ -66,7 +66,7 @@ Refuse = Callable[..., str]
         (("--at", "1976-02-07T25:00"), "--at = '1976-02-07T25:00'", "1976-02-07T10:00"),
         (("--at", "1981-05-01T10:00"), "'1981-05-01'", "winter"),
         (("--at", "1976-06-01T10:00", "--weather", "winter"), "image day = '1976-06-01'", "covers"),
-        (("--at", "1976-02-02T10:00", "--weather", "winter"), "lead-in", "ask for"),
+        (("--at", "1976-02-01T10:00", "--weather", "winter"), "image day = '1976-02-01'", "extend the file"),
     ],
 )
 def test_option_that_cannot_be_honoured_is_refused(
