@@ -1,7 +1,10 @@
 """A scene under its weather, with all tables baked: what any number of sensors can be pointed at."""
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, fields
 from datetime import date
+
+import numpy as np
 
 from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
@@ -16,6 +19,7 @@ from sensorsim.tables import (
 )
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
+from sensorsim.tables.cache import inputs_digest
 from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
@@ -32,6 +36,7 @@ class World:
     assignment: Assignment
     tables: ShadeTables
     offsets: SurfaceOffsets | None  # of near surfaces, where the settings ask for their exchange
+    inputs_sha256: str  # of all that decides its frames: weather, walls, settings, code, geometry, surfaces
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
@@ -53,6 +58,7 @@ def build_world(
     assignment = assign_wall_types(scene, catalogue, season)
     ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
     tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
+    tabled = inputs_digest(environment, assignment.wall_types, ground, settings)
     offsets = None
     if settings.exchange:
         offsets = near_surface_offsets(
@@ -69,5 +75,18 @@ def build_world(
         assignment=assignment,
         tables=tables,
         offsets=offsets,
+        inputs_sha256=_digest(scene, assignment, f"{tabled} exchange {settings.exchange}"),
         warnings=() if mismatch is None else (mismatch,),
     )
+
+
+def _digest(scene: Scene, assignment: Assignment, tables: str) -> str:
+    """SHA-256 of the tables' inputs with the geometry and what its surfaces are made of."""
+    digest = hashlib.sha256(tables.encode())
+    for part in (scene.mesh, scene.surfaces, assignment):
+        for field in fields(part):
+            value = getattr(part, field.name)
+            if isinstance(value, np.ndarray):
+                digest.update(f"{field.name}{value.dtype}{value.shape}".encode())
+                digest.update(np.ascontiguousarray(value).tobytes())
+    return digest.hexdigest()
