@@ -147,12 +147,12 @@ def _single_precision() -> float:
     grid = build_grid(layers, 60.0)
     angle = 2.0 * np.pi * np.arange(count + 1) * 60.0 / DAY
     air, sun = 285.0 - 5.0 * np.cos(angle), np.maximum(-700.0 * np.cos(angle), 0.0)
-    inside = indoors(constant(290.0, count + 1), 8.0)
+    room = constant(290.0, count + 1)
 
     def go(first: int, last: int, start: FloatArray) -> tuple[FloatArray, float]:
         rows = slice(first, last + 1)
         history = march(
-            layers, outdoors(air[rows], 15.0, sun=sun[rows]), Inside(*(_cut(value, rows) for value in inside)),
+            layers, outdoors(air[rows], 15.0, sun=sun[rows]), indoors(room[rows], 8.0),
             np.array([0.7]), step=60.0, record=np.array([last - first]), grid=grid, start=start, keep_nodes=True,
         )  # fmt: skip
         cells = start if history.nodes is None else history.nodes[0, :, 0, 0]
@@ -165,10 +165,6 @@ def _single_precision() -> float:
         cells, rounded = go(first, first + 15, stored)
         stored, worst = cells.astype(np.float32).astype(np.float64), max(worst, abs(rounded - face))
     return worst
-
-
-def _cut(value: object, rows: slice) -> object:
-    return value[rows] if isinstance(value, np.ndarray) else value
 
 
 CASES = (

@@ -45,7 +45,7 @@ def _free_film_returns() -> float:
         record=np.array([199, 399]),
     )  # fmt: skip
     before, after = history.exterior[:, 0, 0]
-    return abs(before - 290.0) if 300.0 < after < 310.0 else np.inf
+    return abs(float(before) - 290.0) if 300.0 < after < 310.0 else np.inf
 
 
 def _at_hours(layers: Sequence[Layer], time: FloatArray, step: float) -> FloatArray:
@@ -64,7 +64,8 @@ def _at_hours(layers: Sequence[Layer], time: FloatArray, step: float) -> FloatAr
 
 def _changing_steps() -> float:
     """Difference that intervals of a second within those of a quarter make, at the quarters."""
-    layers, plain = load_construction("brick").layers, np.arange(0.0, 21601.0, 900.0)
+    layers = load_construction("brick").layers
+    plain = 900.0 * np.arange(25, dtype=np.float64)
     seconds = (plain[4:-4, None] + np.array([1.0, 2.0])).ravel()
     mixed = np.unique(np.concatenate([plain, seconds]))
     rows = np.searchsorted(mixed, plain)
@@ -72,7 +73,8 @@ def _changing_steps() -> float:
 
 
 def _odd_step() -> float:
-    layers, hours = load_construction("brick").layers, np.arange(0.0, 21601.0, 600.0)
+    layers = load_construction("brick").layers
+    hours = 600.0 * np.arange(37, dtype=np.float64)
     return float(np.abs(_at_hours(layers, hours, 420.0) - _at_hours(layers, hours, 10.0)).max())
 
 
