@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from sensorsim.study import (
     stability_inputs,
+    stability_march_exact,
     stability_march_laws,
     stability_march_layers,
     stability_march_loads,
@@ -23,6 +24,7 @@ CASES: tuple[Case, ...] = (
     *stability_march_loads.CASES,
     *stability_march_snow.CASES,
     *stability_march_laws.CASES,
+    *stability_march_exact.CASES,
     *stability_pixel_normals.CASES,
     *stability_pixel_tables.CASES,
     *stability_pixel_frames.CASES,

@@ -142,7 +142,7 @@ def _thick_concrete() -> float:
 
 
 def _single_precision() -> float:
-    """What a week of storing a wall's cells in float32 kelvin after every minute's step does to its face."""
+    """What storing a wall's cells in float32 kelvin every quarter of an hour for a week does to its face."""
     layers, count = load_construction("brick").layers, 7 * 1440
     grid = build_grid(layers, 60.0)
     angle = 2.0 * np.pi * np.arange(count + 1) * 60.0 / DAY

@@ -33,8 +33,8 @@ def _gale() -> float:
         [STEEL], outdoors(constant(280.0, count), film, sun=100.0, free=2.2), indoors(constant(280.0, count), 0.0),
         np.ones(1), step=300.0, record=np.arange(1, count),
     )  # fmt: skip
-    still = (100.0 / 2.2 ** (1.0 / 3.0)) ** 0.75  # [K] that free convection alone needs for 100 W m-2
-    return max(0.0, 280.0 - float(history.exterior.min()), float(history.exterior.max()) - 280.0 - still)
+    still: float = (100.0 / 2.2 ** (1.0 / 3.0)) ** 0.75  # [K] that free convection alone needs for 100 W m-2
+    return max(0.0, 280.0 - float(history.exterior.min()), float(history.exterior.max() - 280.0 - still))
 
 
 def _free_film_returns() -> float:
@@ -45,7 +45,7 @@ def _free_film_returns() -> float:
         record=np.array([199, 399]),
     )  # fmt: skip
     before, after = history.exterior[:, 0, 0]
-    return abs(float(before) - 290.0) if 300.0 < after < 310.0 else np.inf
+    return abs(float(before) - 290.0) if 300.0 < after < 310.0 else float("inf")
 
 
 def _at_hours(layers: Sequence[Layer], time: FloatArray, step: float) -> FloatArray:

@@ -1,4 +1,5 @@
-"""Three pictures of stability: a metal skin at sunrise beside other methods, overshoot against step, melting snow.
+"""Pictures of stability: a metal skin at sunrise beside other methods, overshoot against step, melting snow, and the
+error against exact solutions.
 
 Needs matplotlib, which comes with the extra `study`.
 """
@@ -9,6 +10,7 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from sensorsim.constants import ZERO_CELSIUS
+from sensorsim.study.manufactured import CELLS, ONE_LAYER, STEPS, TWO_LAYERS, errors_in_space, errors_in_time, order
 from sensorsim.study.stability_march_skins import settled, sunrise
 from sensorsim.study.stability_march_snow import melting_day
 from sensorsim.study.wall_setup import BATTING, COPPER, FloatArray
@@ -107,4 +109,22 @@ def draw_melting() -> "Figure":
     axes.set(xlim=(8.0, 24.0), xlabel="time [h]", ylabel="face of the snow [°C]")
     axes.grid(alpha=0.3)
     axes.legend(title="step")
+    return figure
+
+
+def draw_convergence() -> "Figure":
+    """Error against the exact solutions over cells and steps, with the fitted orders."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    space, time = figure.subplots(1, 2)
+    for layers, name, colour in ((ONE_LAYER, "one layer", "#0072B2"), (TWO_LAYERS, "two layers", "#D55E00")):
+        cell = [1e3 * sum(layer.thickness for layer in layers) / len(layers) / count for count in CELLS]
+        for axes, sizes, errors in ((space, cell, errors_in_space(layers)), (time, STEPS, errors_in_time(layers))):
+            axes.loglog(sizes, errors, "o-", color=colour, label=f"{name}, order {order(sizes, errors):.2f}")
+    for axes, label in ((space, "cell, mean over layers [mm]"), (time, "step [s]")):
+        axes.set(xlabel=label)
+        axes.grid(alpha=0.3)
+        axes.legend()
+    space.set_ylabel("rms error of both faces [K]")
     return figure
