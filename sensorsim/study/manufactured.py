@@ -104,9 +104,10 @@ def march_error(layers: Sequence[Layer], grid: WallGrid, step: float) -> float:
     room = back - flux_at(layers, thickness, time) / INNER_FILM
     every = np.arange(0, time.size, round(3600.0 / step))[1:]
     start = np.array([temperature_at(layers, float(depth), time[:1])[0] for depth in grid.depth])
+    sun = absorbed_sunlight(layers, time)
     history = march(
-        layers, outdoors(air, FILM, sun=absorbed_sunlight(layers, time), sky=SKY, emissivity=EMISSIVITY), indoors(room, INNER_FILM),
-        np.ones(1), step=step, record=every, grid=grid, start=start,
+        layers, outdoors(air, FILM, sun=sun, sky=SKY, emissivity=EMISSIVITY), indoors(room, INNER_FILM), np.ones(1),
+        step=step, record=every, grid=grid, start=start,
     )  # fmt: skip
     misses = np.stack([history.exterior[:, 0, 0] - face[every], history.interior[:, 0, 0] - back[every]])
     return float(np.sqrt(np.mean(misses**2)))

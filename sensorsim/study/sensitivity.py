@@ -4,9 +4,12 @@ One input is changed at a time, by its standard uncertainty, and the wall marche
 ones that pictures are made with.
 """
 
+import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from datetime import date
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +18,7 @@ from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.study.gallery import FALL, SUMMER, WINTER
 from sensorsim.study.sensitivity_inputs import INPUTS
 from sensorsim.study.sensitivity_model import (
+    Change,
     Effect,
     FloatArray,
     Input,
@@ -30,7 +34,10 @@ from sensorsim.tables import BakeSettings, bake_tables, surface_temperature
 HOURS = np.array([7.0, 10.0, 13.0, 17.0])  # of the report's pictures
 DAYS = (WINTER, SUMMER, FALL)
 GROUND = 93  # loam, the plane that walls see
-FINE_STEP = 30.0  # [s] of the solution that the solver's own error is taken against
+FINE_STEP = 60.0  # [s] of the solution that the solver's own error is taken against
+UNCHANGED: Change = lambda _setup, _sign: None  # noqa: E731
+SOLVER = Input(name="solver", amount="step 300 s", source="against steps of 60 s", change=UNCHANGED)
+FIT = Input(name="fit", amount="tables", source="against the surface's own march", change=UNCHANGED)
 Progress = Callable[[str, int, int], None]
 
 
@@ -77,26 +84,38 @@ def study_sensitivity(
     settings: BakeSettings | None = None,
     progress: Progress | None = None,
 ) -> tuple[Sensitivity, ...]:
-    """Change one input at a time, on every surface, day and hour."""
+    """Change one input at a time, on every surface, day and hour; days in threads."""
     catalogue, found = load_catalogue(), []
-    for done, specimen in enumerate(specimens):
-        if progress is not None:
-            progress(specimen.name, done, len(specimens))
-        setups = [setup_of(specimen, day, catalogue) for day in days]
-        effects = [
-            Effect(input=each, kelvin=np.stack([change_of(setup, each.change, hours) for setup in setups]))
-            for each in inputs
-        ]
-        found.append(
-            Sensitivity(
-                specimen=specimen, days=tuple(days), hours=hours,
-                temperature=np.stack([at_hours(setup, surface_history(setup), hours) for setup in setups]),
-                effects=tuple(sorted(effects, key=lambda effect: -effect.rms)),
-                solver=_own_error("solver", [_solver_miss(setup, hours) for setup in setups]),
-                fit=_own_error("fit", [_fit_miss(setup, hours, settings) for setup in setups]),
-            )
-        )  # fmt: skip
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        for done, specimen in enumerate(specimens):
+            if progress is not None:
+                progress(specimen.name, done, len(specimens))
+            tried = partial(_try_day, specimen, catalogue=catalogue, inputs=inputs, hours=hours, settings=settings)
+            found.append(_gather(specimen, tuple(days), hours, inputs, list(pool.map(tried, days))))
     return tuple(found)
+
+
+def _try_day(
+    specimen: Specimen, day: date, *, catalogue: Catalogue, inputs: Sequence[Input], hours: FloatArray,
+    settings: BakeSettings | None,
+) -> FloatArray:  # fmt: skip
+    """Rows (3 + inputs, h) of a day: temperature, errors of solver and fit, and what each input is worth [K]."""
+    setup = setup_of(specimen, day, catalogue)
+    plain = at_hours(setup, surface_history(setup), hours)
+    own = [plain, _solver_miss(setup, hours, plain), _fit_miss(setup, hours, plain, settings)]
+    return np.stack([*own, *(change_of(setup, each.change, hours, plain) for each in inputs)])
+
+
+def _gather(
+    specimen: Specimen, days: tuple[date, ...], hours: FloatArray, inputs: Sequence[Input], rows: list[FloatArray]
+) -> Sensitivity:
+    table = np.stack(rows, axis=1)  # (3 + inputs, d, h)
+    effects = [Effect(input=each, kelvin=kelvin) for each, kelvin in zip(inputs, table[3:], strict=True)]
+    return Sensitivity(
+        specimen=specimen, days=days, hours=hours, temperature=table[0],
+        effects=tuple(sorted(effects, key=lambda effect: -effect.rms)),
+        solver=Effect(input=SOLVER, kelvin=table[1]), fit=Effect(input=FIT, kelvin=table[2]),
+    )  # fmt: skip
 
 
 def setup_of(specimen: Specimen, day: date, catalogue: Catalogue, *, step: float = 300.0) -> Setup:
@@ -109,24 +128,18 @@ def setup_of(specimen: Specimen, day: date, catalogue: Catalogue, *, step: float
     )  # fmt: skip
 
 
-def _own_error(name: str, misses: Sequence[FloatArray]) -> Effect:
-    unchanged = Input(name=name, amount="", source="", change=lambda _setup, _sign: None)
-    return Effect(input=unchanged, kelvin=np.stack(misses))
-
-
-def _solver_miss(setup: Setup, hours: FloatArray) -> FloatArray:
-    """What the steps of a bake cost (h,) [K], against steps and cells for 30 s."""
+def _solver_miss(setup: Setup, hours: FloatArray, plain: FloatArray) -> FloatArray:
+    """What the steps of a bake cost (h,) [K], against steps and cells for a minute."""
     fine = build_setup(
         setup.weather, setup.image_day, ground=setup.ground, wall=setup.wall, reflectance=setup.reflectance,
         azimuth=setup.azimuth, tilt=setup.tilt, step=FINE_STEP,
     )  # fmt: skip
-    coarse = at_hours(setup, surface_history(setup), hours)
-    return np.asarray(np.abs(coarse - at_hours(fine, surface_history(fine), hours)))
+    return np.asarray(np.abs(plain - at_hours(fine, surface_history(fine), hours)))
 
 
-def _fit_miss(setup: Setup, hours: FloatArray, settings: BakeSettings | None) -> FloatArray:
-    """What the tables' standard orientations, reflectances and slices cost (h,) [K], against the surface's own march."""
+def _fit_miss(setup: Setup, hours: FloatArray, plain: FloatArray, settings: BakeSettings | None) -> FloatArray:
+    """What the tables' orientations, reflectances and slices cost (h,) [K], against the surface's own march."""
     tables = bake_tables(setup.environment, (setup.wall,), ground=setup.ground, settings=settings)
     wall, reflectance = np.zeros(1, dtype=np.int64), np.array([setup.reflectance])
     fitted = [surface_temperature(tables, normal_of(setup), wall, reflectance, 3600.0 * hour)[0] for hour in hours]
-    return np.asarray(np.abs(np.array(fitted) - at_hours(setup, surface_history(setup), hours)))
+    return np.asarray(np.abs(np.array(fitted) - plain))

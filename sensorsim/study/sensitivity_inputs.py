@@ -54,7 +54,10 @@ def _film(setup: Setup, sign: float) -> Setup:
     return replace(setup, film=1.0 + sign * FILM)
 
 
-def _evaporation(setup: Setup, sign: float) -> Setup:
+def _evaporation(setup: Setup, sign: float) -> Setup | None:
+    """Of grounds and plants; walls and roofs are dry but for rain."""
+    if setup.wall.cover is None:
+        return None
     return replace(setup, evaporation=1.0 + sign * EVAPORATION)
 
 

@@ -75,13 +75,18 @@ def build_setup(
     environment = build_environment(weather, image_day=image_day, lead_in_days=LEAD_IN, step=step)
     return Setup(
         weather=weather, image_day=image_day, environment=environment, ground=ground,
-        soil=ground_temperature(environment, ground), wall=wall, reflectance=reflectance, azimuth=azimuth, tilt=tilt,
+        soil=_soil(environment, ground, tilt), wall=wall, reflectance=reflectance, azimuth=azimuth, tilt=tilt,
     )  # fmt: skip
 
 
 def with_environment(setup: Setup, environment: Environment) -> Setup:
     """The same surface under another environment, its ground included."""
-    return replace(setup, environment=environment, soil=ground_temperature(environment, setup.ground))
+    return replace(setup, environment=environment, soil=_soil(environment, setup.ground, setup.tilt))
+
+
+def _soil(environment: Environment, ground: WallType, tilt: float) -> FloatArray:
+    """Temperature (t,) [K] of the ground before a surface; one that is level sees none, and is given the air's."""
+    return environment.air_temperature if tilt == 0.0 else ground_temperature(environment, ground)
 
 
 def surface_history(setup: Setup) -> FloatArray:
@@ -117,9 +122,9 @@ def at_hours(setup: Setup, history: FloatArray, hours: FloatArray) -> FloatArray
     return np.asarray(np.interp(hours, time, history))
 
 
-def change_of(setup: Setup, change: Change, hours: FloatArray) -> FloatArray:
-    """What a change does to the temperature (h,) [K], the larger of both signs; 0 where neither can be."""
-    plain, sizes = at_hours(setup, surface_history(setup), hours), [np.zeros(hours.size)]
+def change_of(setup: Setup, change: Change, hours: FloatArray, plain: FloatArray) -> FloatArray:
+    """What a change does to the temperature `plain` (h,) [K], the larger of both signs; 0 where neither can be."""
+    sizes = [np.zeros(hours.size)]
     for sign in (1.0, -1.0):
         changed = change(setup, sign)
         if changed is not None:
