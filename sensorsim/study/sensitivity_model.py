@@ -15,7 +15,7 @@ from sensorsim.thermal.natural import melting_depth
 
 FloatArray = NDArray[np.float64]
 
-LEAD_IN = 3.0  # [day]
+LEAD_IN = 2.0  # [day] after which brick has forgotten its start to 0.05 K
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
