@@ -12,7 +12,7 @@ from scipy.linalg import solve_banded
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.study.manufactured import CELLS, ONE_LAYER, STEPS, TWO_LAYERS, errors_in_space, errors_in_time, order
 from sensorsim.study.stability_march_skins import settled, sunrise
-from sensorsim.study.stability_march_snow import melting_day
+from sensorsim.study.stability_march_snow import HEAT_OF_MELTING, melting_day
 from sensorsim.study.wall_setup import BATTING, COPPER, FloatArray
 from sensorsim.thermal import WallGrid, build_grid
 
@@ -102,7 +102,7 @@ def draw_melting() -> "Figure":
     axes = figure.subplots()
     for step, colour in ((60.0, "#0072B2"), (600.0, "#E69F00"), (3600.0, "#D55E00")):
         history = melting_day(step)
-        hours, melt = history.sample * step / 3600.0, float(history.melted[0, 0]) / 334e3
+        hours, melt = history.sample * step / 3600.0, float(history.melted[0, 0]) / HEAT_OF_MELTING
         label = f"{step:g} s, {melt:.2f} kg m$^{{-2}}$ melted"
         axes.plot(hours, history.exterior[:, 0, 0] - ZERO_CELSIUS, ".-", color=colour, label=label, markersize=4)
     axes.axhline(0.0, color="k", linewidth=0.8, linestyle="--")
