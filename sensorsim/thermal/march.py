@@ -10,8 +10,9 @@ from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
 from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
-from sensorsim.thermal.kernel import GAMMA, advance
+from sensorsim.thermal.kernel import advance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +91,8 @@ def _innermost(columns: Columns, grid: WallGrid) -> FloatArray:
 
 def _plain_outside(outside: Outside) -> Outside:
     vapour = outside.vapour if outside.vapour.size else np.zeros_like(outside.air)
-    return Outside(*(_plain(value) for value in outside._replace(vapour=vapour)))
+    colder = outside.free_colder if outside.free_colder.size else outside.free
+    return Outside(*(_plain(value) for value in outside._replace(vapour=vapour, free_colder=colder)))
 
 
 def _plain_inside(inside: Inside, grid: WallGrid) -> Inside:
@@ -133,9 +135,7 @@ def _start(
     faces = np.repeat(line[[0, -1], None], count, axis=1)
     return Columns(
         cells=np.repeat(profile[:, None], count, axis=1) - ZERO_CELSIUS,
-        faces=faces - ZERO_CELSIUS,
-        films=np.full((2, count), 5.0),
-        heat=np.zeros((2, count)),
+        carried=np.concatenate([faces - ZERO_CELSIUS, np.full((2, count), 5.0), np.zeros((4, count))]),
         orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),
         absorptance=np.tile(absorptances, outside.irradiance.shape[1]),
     )
