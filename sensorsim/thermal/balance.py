@@ -42,7 +42,7 @@ def balance(
     moving = 0
     for _ in range(ITERATION_LIMIT):
         if wet:
-            _evaporate(lanes, w, vapour, at)
+            evaporate(lanes, w, vapour, at)
         moving = _approach(lanes, w, exchange, grey, air, room)
         if moving == 0:
             break
@@ -84,7 +84,7 @@ def _approach(lanes: Index, w: FloatArray, exchange: FloatArray, grey: float, ai
 
 
 @inner
-def _evaporate(lanes: Index, w: FloatArray, vapour: float, at: float) -> None:
+def evaporate(lanes: Index, w: FloatArray, vapour: float, at: float) -> None:
     """Latent heat that leaves a wet face and its slope per kelvin of it."""
     for j in range(lanes):
         t = max(w[EXTERIOR + j], COLDEST_WATER)

@@ -30,6 +30,7 @@ from sensorsim.thermal.lanes import (
     HEAT,
     INTERIOR,
     INTERIOR_FLUX,
+    INTERIOR_HEAT,
     INTERIOR_RISE,
     INTERIOR_START,
     LANES,
@@ -141,9 +142,10 @@ def _step(
 @inner
 def settle(lanes: Index, w: FloatArray, step: float) -> None:
     """End of a step: heat that has entered, and how far the faces went."""
-    for j in range(lanes + lanes):
+    for j in range(lanes):
         w[HEAT + j] += step * w[FLUX + j]
-        w[RISE + j] = w[EXTERIOR + j] - w[START + j]
+        w[INTERIOR_HEAT + j] += step * w[INTERIOR_FLUX + j]
+        w[RISE + j], w[INTERIOR_RISE + j] = w[EXTERIOR + j] - w[START + j], w[INTERIOR + j] - w[INTERIOR_START + j]
 
 
 @inner

@@ -20,7 +20,7 @@ LANES = 32
 UNBOUNDED = 1e9  # [K], [W m-2]
 ROW = [Index(LANES * row) for row in range(38)]
 # What a column carries from step to step, in the order of `Columns.carried`, and what it never changes.
-EXTERIOR, INTERIOR, EXTERIOR_FILM, INTERIOR_FILM, HEAT, _, RISE, INTERIOR_RISE = ROW[0:8]
+EXTERIOR, INTERIOR, EXTERIOR_FILM, INTERIOR_FILM, HEAT, INTERIOR_HEAT, RISE, INTERIOR_RISE = ROW[0:8]
 ABSORPTANCE, FREE, FREE_COLDER = ROW[8:11]
 # Its load at a step's first sample, and LATER at its second.
 ABSORBED, FORCED, EXCHANGE, SUN, LONGWAVE, LATER = *ROW[11:16], ROW[5]

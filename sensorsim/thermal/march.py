@@ -8,11 +8,12 @@ import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
+from sensorsim.thermal.boundary import Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import advance
+from sensorsim.thermal.melting import Thaw, advance_melting, latent_heat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +26,8 @@ class History:
     nodes: FloatArray | None  # (r, n, o, a) cell temperatures [K], where asked for
     heat: FloatArray  # (2, o, a) heat that entered through the exterior and the interior face, first to last [J m-2]
     stored: FloatArray  # (o, a) heat stored from the first sample to the last [J m-2]
-    melted: FloatArray  # (o, a) heat that went into melting [J m-2]; `heat` sums to `stored` and this
+    melted: FloatArray  # (o, a) heat that melting has taken up, less freezing; `heat` sums to `stored` and this [J m-2]
+    drained: FloatArray  # (o, a) part of `melted` that came to snow which had all melted, and ran off [J m-2]
     grid: WallGrid
 
 
@@ -41,6 +43,7 @@ def march(
     grid: WallGrid | None = None,
     start: FloatArray | None = None,
     melting_depth: float = 0.0,
+    drains: bool = True,
 ) -> History:
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
@@ -48,26 +51,26 @@ def march(
     temperatures `start` (n,) [K] are given. The inside of a curved `grid` is given per its own area, as elsewhere;
     heats come per exterior area. A solid one has no inside: its innermost cell stands for the interior face.
 
-    Snow down to `melting_depth` [m] melts rather than warm: after each step its cells are set back to 0 C, and the heat
-    taken from them is counted. Within the step its face gets above 0 C by some kelvin at most and loses more heat
-    than melting snow would, so that up to a fifth of the melt in full sun is missed; meltwater does not freeze again.
+    What lies down to `melting_depth` [m] is snow, or ice where its water does not drain (see `melting`): it melts and
+    freezes at 0 C. Steps of such a wall are of first order.
     """
     grid = build_grid(layers, step) if grid is None else grid
-    cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    latent = latent_heat(layers, grid, melting_depth)
     outside, inside = _plain_outside(outside), _plain_inside(inside, grid)
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior, interior = np.zeros((record.size, *shape)), np.zeros((record.size, *shape))
     nodes = np.zeros((record.size, grid.capacity.size, *shape)) if keep_nodes else None
-    before = grid.capacity @ columns.cells
-    melting = grid.capacity * (grid.depth < melting_depth)
-    melted, sample = np.zeros(columns.cells.shape[1]), 0
-    for row, wanted in enumerate(record):
-        stops = range(sample + 1, int(wanted) + 1) if np.any(melting) else (int(wanted),)
-        for stop in stops:
-            _advance_to(stop, sample, columns, (cells, damped), outside, inside, step)
-            melted += _melt(columns, melting)
-            sample = stop
+    before, taken, sample = grid.capacity @ columns.cells, np.zeros((latent.size + 1, columns.orientation.size)), 0
+    cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
+    for row, wanted in enumerate(map(int, record)):
+        if np.any(latent):
+            failures = advance_melting(columns, taken, thaw, outside, inside, sample, wanted, step)
+        else:
+            failures = advance(columns, cells, damped, outside, inside, sample, wanted, step)
+        _require_balance(columns, failures, sample, wanted)
+        sample = wanted
         exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
         interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
         if nodes is not None:
@@ -79,7 +82,8 @@ def march(
         nodes=nodes,
         heat=columns.heat.reshape(2, *shape),
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
-        melted=melted.reshape(shape),
+        melted=taken.sum(axis=0).reshape(shape),
+        drained=taken[-1].reshape(shape),
         grid=grid,
     )
 
@@ -104,23 +108,10 @@ def _plain(value: Any) -> Any:
     return np.require(value, np.float64, ["C", "W"]) if isinstance(value, np.ndarray) else float(value)
 
 
-def _advance_to(
-    last: int, first: int, columns: Columns, wall: tuple[Cells, Cells], outside: Outside, inside: Inside, step: float
-) -> None:
-    """Columns from sample `first` to `last`, or NumericsError."""
-    failures = advance(columns, wall[0], wall[1], outside, inside, first, last, step)
+def _require_balance(columns: Columns, failures: int, first: int, last: int) -> None:
+    """Raise NumericsError where steps between two samples failed."""
     if failures or not np.all(np.isfinite(columns.faces)):
         raise NumericsError(f"heat balance of a wall did not converge between samples {first} and {last}")
-
-
-def _melt(columns: Columns, melting: FloatArray) -> FloatArray:
-    """Set cells of snow, with a capacity in `melting` (n,), back to 0 C; the heat (m,) [J m-2] that this takes."""
-    if not np.any(melting):
-        return np.zeros(columns.cells.shape[1])
-    above = np.where(melting[:, None] > 0.0, np.maximum(columns.cells, 0.0), 0.0)
-    columns.cells[:] -= above
-    columns.faces[0] = np.minimum(columns.faces[0], 0.0)
-    return np.asarray(melting @ above)
 
 
 def _start(
