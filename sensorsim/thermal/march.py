@@ -8,7 +8,7 @@ import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Columns, Inside, Outside, per_exterior_area
+from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
@@ -52,7 +52,7 @@ def march(
     heats come per exterior area. A solid one has no inside: its innermost cell stands for the interior face.
 
     What lies down to `melting_depth` [m] is snow, or ice where its water does not drain (see `melting`): it melts and
-    freezes at 0 C. Steps of such a wall are of first order.
+    freezes at 0 C; ice that starts warmer is water. Steps of such a wall are of first order.
     """
     grid = build_grid(layers, step) if grid is None else grid
     latent = latent_heat(layers, grid, melting_depth)
@@ -61,15 +61,12 @@ def march(
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior, interior = np.zeros((record.size, *shape)), np.zeros((record.size, *shape))
     nodes = np.zeros((record.size, grid.capacity.size, *shape)) if keep_nodes else None
-    before, taken, sample = grid.capacity @ columns.cells, np.zeros((latent.size + 1, columns.orientation.size)), 0
-    cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    walls = factor(grid, GAMMA * step, step), factor(grid, step, step)
     thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
+    before, taken, sample = grid.capacity @ columns.cells, _taken(columns, thaw), 0
+    held = taken.sum(axis=0)
     for row, wanted in enumerate(map(int, record)):
-        if np.any(latent):
-            failures = advance_melting(columns, taken, thaw, outside, inside, sample, wanted, step)
-        else:
-            failures = advance(columns, cells, damped, outside, inside, sample, wanted, step)
-        _require_balance(columns, failures, sample, wanted)
+        _advance(wanted, sample, columns, taken, walls, thaw, outside, inside, step)
         sample = wanted
         exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
         interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
@@ -82,7 +79,7 @@ def march(
         nodes=nodes,
         heat=columns.heat.reshape(2, *shape),
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
-        melted=taken.sum(axis=0).reshape(shape),
+        melted=(taken.sum(axis=0) - held).reshape(shape),
         drained=taken[-1].reshape(shape),
         grid=grid,
     )
@@ -108,8 +105,23 @@ def _plain(value: Any) -> Any:
     return np.require(value, np.float64, ["C", "W"]) if isinstance(value, np.ndarray) else float(value)
 
 
-def _require_balance(columns: Columns, failures: int, first: int, last: int) -> None:
-    """Raise NumericsError where steps between two samples failed."""
+def _taken(columns: Columns, thaw: Thaw) -> FloatArray:
+    """Latent heat (n + 1, m) [J m-2] that cells hold at the start: water of ice that is warmer than 0 C."""
+    taken = np.zeros((thaw.latent.size + 1, columns.orientation.size))
+    if not thaw.drains:
+        taken[:-1] = np.where(columns.cells > 0.0, thaw.latent[:, None], 0.0)
+    return taken
+
+
+def _advance(
+    last: int, first: int, columns: Columns, taken: FloatArray, walls: tuple[Cells, Cells], thaw: Thaw,
+    outside: Outside, inside: Inside, step: float,
+) -> None:  # fmt: skip
+    """Columns from sample `first` to `last`, or NumericsError."""
+    if np.any(thaw.latent):
+        failures = advance_melting(columns, taken, thaw, outside, inside, first, last, step)
+    else:
+        failures = advance(columns, *walls, outside, inside, first, last, step)
     if failures or not np.all(np.isfinite(columns.faces)):
         raise NumericsError(f"heat balance of a wall did not converge between samples {first} and {last}")
 

@@ -6,8 +6,9 @@ with both faces, and corrects the guess until it holds, cells that begin to melt
 iteration of [Brugnano2008], finite and free of chatter as the matrix is an M-matrix.
 
 Snow drains: it stays at 0 C when it has melted, its water carries off what heat comes then, and where its face would
-get warmer than 0 C the face holds that, and all heat that it takes in goes to the first cell. Ice keeps its water,
-which warms. Melted snow keeps its place, density and conductivity, and its water stays to freeze again.
+get warmer than 0 C the face holds that, and all heat that it takes in goes to the first cell, and on inward where that
+has melted. Ice keeps its water, which warms. Melted snow keeps its place, density and conductivity, and as much water
+as it held stays to freeze again.
 """
 
 from collections.abc import Sequence
@@ -239,13 +240,15 @@ def _guess_melted(c: FloatArray, v: FloatArray, wall: Thaw, step: float, held: b
 
 @inner
 def _store(c: FloatArray, v: FloatArray, taken: FloatArray, wall: Thaw, step: float, held: bool, gain: float) -> None:
-    """Latent heat at the end of the step; of snow, what is more than it takes to melt drains."""
+    """Latent heat at the end of the step; what is more than melts snow goes on inward, and at last drains."""
+    passing = 0.0
     for i in range(v.shape[1]):
         content = 0.0
         if v[STATE, i] == MELTING:
             content = step * _content(c, v, wall, i, held, gain)
         elif v[STATE, i] == MELTED:
             content = wall.latent[i]
-        drained = max(content - wall.latent[i], 0.0) if wall.drains else 0.0
-        taken[i] = content - drained
-        taken[v.shape[1]] += drained
+        content += passing
+        taken[i] = min(content, wall.latent[i]) if wall.drains else content
+        passing = content - taken[i]
+    taken[v.shape[1]] += passing
