@@ -5,6 +5,8 @@ import sys
 import typer
 from rich.console import Console
 
+from sensorsim.cli.capture import capture
+from sensorsim.cli.diff import diff
 from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
@@ -19,7 +21,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (render, gallery, scene, wall, info):
+for command in (render, capture, gallery, diff, scene, wall, info):
     app.command()(command)
 
 
