@@ -45,24 +45,33 @@ def take(
     free_colder: FloatArray, begin: int,
 ) -> None:  # fmt: skip
     """Columns from `begin` on into lanes; lanes beyond the last column repeat it."""
+    last = Index(columns.orientation.size - 1)
     for j in range(lanes):
-        k = min(begin + int(j), columns.orientation.size - 1)
+        k = min(Index(begin) + j, last)
         lane[j] = columns.orientation[k]
         w[FREE + j], w[FREE_COLDER + j] = free[lane[j]], free_colder[lane[j]]
         w[ABSORPTANCE + j], w[LOWEST + j], w[HIGHEST + j] = columns.absorptance[k], UNBOUNDED, -UNBOUNDED
-        for row in range(columns.carried.shape[0]):
-            w[Index(row * LANES) + j] = columns.carried[row, k]
-        for i in range(columns.cells.shape[0]):
-            cell = columns.cells[i, k]
-            w[LOWEST + j], w[HIGHEST + j] = min(w[LOWEST + j], cell), max(w[HIGHEST + j], cell)
-            c[Index(i + 1) * CELL + STAGE + j] = cell
+    for row in range(columns.carried.shape[0]):
+        to, carried = Index(row) * Index(LANES), columns.carried[row]
+        for j in range(lanes):
+            w[to + j] = carried[min(Index(begin) + j, last)]
+    for i in range(columns.cells.shape[0]):
+        at, cells = Index(i + 1) * CELL + STAGE, columns.cells[i]
+        for j in range(lanes):
+            c[at + j] = cells[min(Index(begin) + j, last)]
+        for j in range(lanes):
+            w[LOWEST + j], w[HIGHEST + j] = min(w[LOWEST + j], c[at + j]), max(w[HIGHEST + j], c[at + j])
 
 
 @inner
 def give(lanes: Index, w: FloatArray, c: FloatArray, columns: Columns, begin: int) -> None:
     """Lanes back into columns."""
-    for j in range(min(int(lanes), columns.orientation.size - begin)):
-        for row in range(columns.carried.shape[0]):
-            columns.carried[row, begin + j] = w[Index(row * LANES + j)]
-        for i in range(columns.cells.shape[0]):
-            columns.cells[i, begin + j] = c[Index(i + 1) * CELL + STAGE + Index(j)]
+    count, start = min(lanes, Index(columns.orientation.size - begin)), Index(begin)
+    for row in range(columns.carried.shape[0]):
+        at, carried = Index(row) * Index(LANES), columns.carried[row]
+        for j in range(count):
+            carried[start + j] = w[at + j]
+    for i in range(columns.cells.shape[0]):
+        at, cells = Index(i + 1) * CELL + STAGE, columns.cells[i]
+        for j in range(count):
+            cells[start + j] = c[at + j]
