@@ -1,0 +1,3 @@
+"""Image generator for a trainer's host."""
+
+__all__: list[str] = []
