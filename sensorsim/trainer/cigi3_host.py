@@ -1,4 +1,4 @@
-"""The packets of CIGI 3.3 that a host sends [CIGI33], declared as data."""
+"""The packets of CIGI 3.3 that a host sends [CIGI2008], declared as data."""
 
 from sensorsim.trainer.cigi_slots import (
     ANGLES,

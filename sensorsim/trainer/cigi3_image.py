@@ -1,4 +1,4 @@
-"""The packets of CIGI 3.3 that an image generator sends [CIGI33], declared as data."""
+"""The packets of CIGI 3.3 that an image generator sends [CIGI2008], declared as data."""
 
 from sensorsim.trainer.cigi_slots import FARTHEST, GATE, NORMAL, TRACK_PLACE, places
 from sensorsim.trainer.fields import bits, kind, real, spare, whole

@@ -1,8 +1,8 @@
-"""The packets of CIGI 4.0 [CIGI40] that differ from those of 3.3 in header, number and order, not in what they say.
+"""The packets of CIGI 4.0 [SISO2014] that differ from those of 3.3 in header, number and order, not in what they say.
 
 The names of packets and fields are those of 3.3, so the same logic of the image generator serves both. Entity state,
 place and animation are three packets here; the first two are read. Layouts as the CIGI Class Library writes them
-[CIGICCL4]: no other decoder of 4.0 was at hand. It has no layout here for component, articulated part and velocity
+[CIGICCL402]: no other decoder of 4.0 was at hand. It has no layout here for component, articulated part and velocity
 packets, nor for messages of text; they are skipped as unknown ones are.
 """
 

@@ -1,8 +1,8 @@
 """Groups of slots that CIGI 3.3 and 4.0 share.
 
-Fields are named as Wireshark's dissector names them [WiresharkCIGI], so that each can be compared with an independent
-reading. Angles are in degrees, lengths in metres, temperatures in degrees Celsius, pressure in hPa. Limits keep out what
-no host can mean; an angle may be any number of turns.
+Fields are named as Wireshark's dissector names them [Wireshark4017], so that each can be compared with an independent
+reading. Angles are in degrees, lengths in metres, temperatures in degrees Celsius, pressure in hPa. Limits keep out
+what no host can mean; an angle may be any number of turns.
 """
 
 from sensorsim.trainer.fields import Slot, bits, real, reals, whole

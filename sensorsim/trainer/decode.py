@@ -1,8 +1,9 @@
 """Messages read: whatever the bytes, a result and never an exception.
 
 A message is sound when its packets fill it from end to end, each known one has its size, and every number is finite.
-What an unsound one held up to its fault is given too, but nothing should be done on its word. A packet of a sound message
-that says what no host can mean (an hour of 25, a gain of 1.2) is left out and reported; unknown packets are skipped.
+What an unsound one held up to its fault is given too, but nothing should be done on its word. A packet of a sound
+message that says what no host can mean (an hour of 25, a gain of 1.2) is left out and reported; unknown packets are
+skipped.
 """
 
 import struct
