@@ -58,6 +58,18 @@ def travelled(rate: FloatArray, time: float) -> FloatArray:
     return np.asarray(time * (np.eye(3) + 2.0 * (half / angle) ** 2 * cross + lag * cross @ cross))
 
 
+def travelled_faster(rate: FloatArray, time: float) -> FloatArray:
+    """Integral (3, 3) [s2] of time times `turned`: it takes a steady acceleration of the turning axes into a way."""
+    cross, angle = _cross(rate, time)
+    if angle < SMALL_TURN:
+        first, second = 1.0 / 3.0 - angle**2 / 30.0, 0.125
+    else:
+        sine, cosine = math.sin(angle), math.cos(angle)
+        first = (sine - angle * cosine) / angle**3
+        second = (0.5 * angle**2 + 1.0 - cosine - angle * sine) / angle**4
+    return np.asarray(time**2 * (0.5 * np.eye(3) + first * cross + second * cross @ cross))
+
+
 def _cross(rate: FloatArray, time: float) -> tuple[FloatArray, float]:
     """Cross-product matrix of the turn made, and its angle [rad]."""
     x, y, z = (float(part) * time for part in rate)
