@@ -249,6 +249,24 @@ def test_components_and_parts_reach_the_entity(host: Host) -> None:
     assert own.parts[1].values == {"yaw": 30.0, "pitch": 12.0}
 
 
+def test_a_turret_turns_on_while_its_tank_is_sent_again_and_again() -> None:
+    """60 deg/s for a second, with an Entity Control in every frame; then a new rate takes it from there."""
+    host = Host()
+    tank = entity(0.0, 0.0, 2.0, extrapolation_enable=1)
+    turret = {"entity_id": 0, "part_id": 1, "apply_to_part": 1}
+    aim = host.packet("art_part_control", entity_id=0, part_id=1, part_enable=1, yaw_enable=1, yaw=10.0)
+    host.frame(tank, aim, host.packet("rate_control", yaw_rate=60.0, **turret), extrapolation_enable=1)
+    for _ in range(60):
+        host.frame(tank, extrapolation_enable=1)
+    (own,) = host.ig.frame_request().entities
+    assert own.parts[1].values["yaw"] == pytest.approx(70.0, abs=1e-9)
+    host.frame(tank, host.packet("rate_control", yaw_rate=-60.0, **turret), extrapolation_enable=1)
+    for _ in range(30):
+        host.frame(tank, extrapolation_enable=1)
+    (own,) = host.ig.frame_request().entities
+    assert own.parts[1].values["yaw"] == pytest.approx(71.0 - 30.0, abs=1e-9)
+
+
 # --- views and sensors -------------------------------------------------------------------------------------------
 
 

@@ -35,6 +35,12 @@ def test_black_hot_is_the_exact_mirror_of_white_hot(control: SensorState) -> Non
     assert np.array_equal(black, 255 - white)
 
 
+def test_polarity_is_in_the_window_too() -> None:
+    assert display_settings(MANUAL, KNOBS).polarity == "white-hot"
+    assert display_settings(replace(MANUAL, black_hot=True), KNOBS).polarity == "black-hot"
+    assert display_settings(replace(MANUAL, auto_gain=True), KNOBS).is_automatic
+
+
 def test_gain_0_shows_the_whole_range_and_gain_1_a_hundredth() -> None:
     whole = sensor_picture(ramp(), MANUAL, KNOBS, 0)
     assert (whole.min(), whole.max(), len(np.unique(whole))) == (0, 255, 256)

@@ -4,7 +4,7 @@
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import datetime
 from typing import TypeAlias
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from sensorsim.trainer.bake_request import BakeRequest
 from sensorsim.trainer.handle_environment import moment_of
 from sensorsim.trainer.host_state import Air, Component, HostState, Layer, Part, SensorState, Triple, View
+from sensorsim.trainer.motion import part_at
 from sensorsim.trainer.poses import Pose, Surroundings, entity_pose, view_pose
 from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, angles_of
 
@@ -138,24 +139,15 @@ def _entities(state: HostState, time: float, around: Surroundings) -> tuple[Enti
         pose = entity_pose(state, number, time, around) if entity.active else None
         if pose is None:
             continue
-        elapsed = max(0.0, time - entity.since) if state.extrapolate and entity.extrapolate else 0.0
+        moving = state.extrapolate and entity.extrapolate
         request = EntityRequest(
             number=number,
             type_number=entity.type_number,
             position=_triple(pose.position),
             angles=local_angles(pose),
             alpha=entity.alpha,
-            parts={key: _part_at(part, elapsed) for key, part in entity.parts.items()},
+            parts={key: part_at(part, time) if moving else part for key, part in entity.parts.items()},
             components={key[2]: part for key, part in state.components.items() if key[:2] == (0, number)},
         )
         found.append(request)
     return tuple(found)
-
-
-def _part_at(part: Part, elapsed: float) -> Part:
-    """A part carried on by its rates."""
-    if part.rates is None or elapsed == 0.0:
-        return part
-    axes = ("xoff", "yoff", "zoff", "roll", "pitch", "yaw")
-    rates = dict(zip(axes, (*part.rates.linear, *part.rates.angular), strict=True))
-    return replace(part, values={axis: part.values.get(axis, 0.0) + rates[axis] * elapsed for axis in axes})

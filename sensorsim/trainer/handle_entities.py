@@ -7,14 +7,13 @@ from typing import Literal
 from sensorsim.errors import InputError
 from sensorsim.trainer.fields import Value
 from sensorsim.trainer.host_state import Component, Entity, HostState, Part, Query, Rates, Triple
-from sensorsim.trainer.motion import carried_on
+from sensorsim.trainer.motion import PART_AXES, carried_on, part_at
 from sensorsim.trainer.settings import Moment
 
 Values = Mapping[str, Value]
 
 DESTROYED = 2
 CLAMPS: tuple[Literal["none", "level", "conformal"], ...] = ("none", "level", "conformal")
-PART_AXES = ("xoff", "yoff", "zoff", "roll", "pitch", "yaw")
 HIGHEST_LATITUDE, MOST_LONGITUDE = 89.9, 360.0  # [deg]; the map has no north at a pole
 
 
@@ -98,23 +97,24 @@ def rate_control(state: HostState, values: Values, moment: Moment) -> HostState:
     )
     if flag(values, "apply_to_part"):
         part_key = whole_number(values, "part_id")
-        return _with_part(state, entity, part_key, replace(entity.parts.get(part_key, Part()), rates=rates))
+        part = replace(_part_now(state, entity, part_key, moment), rates=rates)
+        return _with_part(state, entity, part_key, part)
     if state.extrapolate and entity.extrapolate:
         entity = carried_on(entity, moment.time)
     return replace(state, entities={**state.entities, key: replace(entity, rates=rates)})
 
 
-def articulated_part(state: HostState, values: Values, _: Moment) -> HostState:
+def articulated_part(state: HostState, values: Values, moment: Moment) -> HostState:
     """Articulated Part Control: the axes enabled take new values, the others keep theirs."""
     entity = _known(state, "art_part_control", whole_number(values, "entity_id"))
     key = whole_number(values, "part_id")
-    part = entity.parts.get(key, Part())
+    part = _part_now(state, entity, key, moment)
     said = {axis: number(values, axis) for axis in PART_AXES if flag(values, f"{axis}_enable")}
     part = replace(part, enabled=flag(values, "part_enable"), values={**part.values, **said})
     return _with_part(state, entity, key, part)
 
 
-def short_articulated_part(state: HostState, values: Values, _: Moment) -> HostState:
+def short_articulated_part(state: HostState, values: Values, moment: Moment) -> HostState:
     """Short Articulated Part Control: one axis each of two parts, which may be the same; axis 0 is none."""
     for which in ("1", "2"):
         entity = _known(state, "short_art_part_control", whole_number(values, "entity_id"))
@@ -122,7 +122,7 @@ def short_articulated_part(state: HostState, values: Values, _: Moment) -> HostS
         if axis == 0:
             continue
         key = whole_number(values, f"part_id_{which}")
-        part = entity.parts.get(key, Part())
+        part = _part_now(state, entity, key, moment)
         said = {PART_AXES[axis - 1]: number(values, f"dof_{which}")}
         part = replace(part, enabled=flag(values, f"part_enable_{which}"), values={**part.values, **said})
         state = _with_part(state, entity, key, part)
@@ -172,6 +172,13 @@ def _known(state: HostState, packet: str, key: int) -> Entity:
     if key not in state.entities:
         raise InputError(packet, "entity_id", key, "no such entity", "send its Entity Control first")
     return state.entities[key]
+
+
+def _part_now(state: HostState, entity: Entity, key: int, moment: Moment) -> Part:
+    """The part as its rates have brought it here, or a new one."""
+    part = entity.parts.get(key, Part())
+    moving = state.extrapolate and entity.extrapolate
+    return replace(part_at(part, moment.time) if moving else part, since=moment.time)
 
 
 def _with_part(state: HostState, entity: Entity, key: int, part: Part) -> HostState:

@@ -27,6 +27,7 @@ class Part:
     enabled: bool = True
     values: Mapping[str, float] = field(default_factory=dict)
     rates: Rates | None = None
+    since: float = 0.0  # IG time at which the values were true [s]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

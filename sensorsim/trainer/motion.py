@@ -7,8 +7,10 @@ from math import atan2, degrees, hypot
 import numpy as np
 from pyproj import Geod
 
-from sensorsim.trainer.host_state import Entity, Rates, Triple
+from sensorsim.trainer.host_state import Entity, Part, Rates, Triple
 from sensorsim.trainer.rotations import FloatArray, angles_of, attitude, travelled, turned
+
+PART_AXES = ("xoff", "yoff", "zoff", "roll", "pitch", "yaw")
 
 
 @lru_cache(maxsize=1)
@@ -42,3 +44,13 @@ def carried_on(entity: Entity, time: float) -> Entity:
     else:
         place = (a + float(first), b + float(second), c + float(third))
     return replace(entity, place=place, angles=angles_of(axes), since=time)
+
+
+def part_at(part: Part, time: float) -> Part:
+    """An articulated part as it is at a later time [s], each axis carried on by its rate."""
+    elapsed = time - part.since
+    if part.rates is None or elapsed <= 0.0:
+        return part
+    rates = dict(zip(PART_AXES, (*part.rates.linear, *part.rates.angular), strict=True))
+    values = {axis: part.values.get(axis, 0.0) + rates[axis] * elapsed for axis in PART_AXES}
+    return replace(part, values=values, since=time)

@@ -2,9 +2,10 @@
 
 In the order of the signal: AC coupling along the scan, noise, gain and level (or automatic), lines dropped, polarity.
 Polarity comes last and turns every code c into 255 - c, so black-hot is the mirror of white-hot whatever else is set.
+The sensor's own noise and coupling are in the radiance already; the host's come on top.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +13,7 @@ from scipy.signal import lfilter
 
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.sensor import DisplaySettings, display_code, fix_window
+from sensorsim.sensor.display import Polarity
 from sensorsim.trainer.host_state import SensorState
 from sensorsim.trainer.rotations import FloatArray
 
@@ -43,15 +45,17 @@ class Knobs:
 
 
 def display_settings(control: SensorState, knobs: Knobs) -> DisplaySettings:
-    """Window of the white-hot picture. Gain 0 shows the whole range, gain 1 a hundredth of it, evenly in ratio.
+    """Polarity and window. Gain 0 shows the whole range, gain 1 a hundredth of it, evenly in ratio.
 
     Level is brightness: 0 puts the brightest radiance in the middle and so darkens the picture, 1 the darkest. With
     automatic gain both are chosen from each frame.
     """
+    polarity: Polarity = "black-hot" if control.black_hot else "white-hot"
     if control.auto_gain:
-        return DisplaySettings()
+        return DisplaySettings(polarity=polarity)
     wide = knobs.brightest - knobs.darkest
-    return DisplaySettings(level=knobs.brightest - control.level * wide, span=wide * CONTRAST**-control.gain)
+    level = knobs.brightest - control.level * wide
+    return DisplaySettings(polarity=polarity, level=level, span=wide * CONTRAST**-control.gain)
 
 
 def sensor_picture(radiance: npt.ArrayLike, control: SensorState, knobs: Knobs, frame: int) -> npt.NDArray[np.uint8]:
@@ -70,7 +74,7 @@ def sensor_picture(radiance: npt.ArrayLike, control: SensorState, knobs: Knobs, 
     window = fix_window(display_settings(control, knobs), signal)
     if control.noise > 0.0 and window.span is not None:
         signal = signal + rng.normal(0.0, control.noise * NOISIEST * window.span, signal.shape)
-    codes = display_code(signal, window)
+    codes = display_code(signal, replace(window, polarity="white-hot"))
     if control.line_dropout:
         codes[rng.random(len(codes)) < DROPPED] = 0
     return np.asarray(WHITE - codes if control.black_hot else codes, dtype=np.uint8)
