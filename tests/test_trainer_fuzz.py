@@ -1,5 +1,6 @@
 """A hundred thousand datagrams of nonsense: nothing raised, nothing changed."""
 
+import gc
 import struct
 from collections.abc import Iterator
 
@@ -133,6 +134,22 @@ def test_extreme_but_allowed_motion_leaves_frames_finite() -> None:
         request = host.ig.frame_request()
         for drawn in (*request.views, *request.entities):
             assert np.all(np.isfinite([*drawn.position, *drawn.angles]))
+
+
+def test_memory_does_not_grow_with_the_frames() -> None:
+    """Frames with a standing question, a tracking sensor and a refusal in each leave no more objects behind."""
+    host = Host()
+    host.frame(entity(0.0, 0.0, 10.0), host.packet("sensor_control", view_id=0, sensor_on_off=1, track_mode=2))
+    question = host.packet("hat_hot_request", hat_hot_id=1, update_period=1, lat_xoff=39.82, lon_yoff=-84.02)
+    refused = host.packet("rate_control", entity_id=99)
+    sizes = []
+    for _ in range(3):
+        for _ in range(150):
+            host.frame(entity(0.0, 0.0, 10.0), question, refused)
+            host.ig.frame_request()
+        gc.collect()
+        sizes.append(len(gc.get_objects()))
+    assert abs(sizes[2] - sizes[1]) < 50  # one packet kept from each frame would be 150
 
 
 def test_a_host_that_uses_every_number_stays_within_the_limits() -> None:

@@ -10,7 +10,7 @@ from sensorsim.trainer.dead_reckoning import reckoned
 from sensorsim.trainer.dis_pdu import EntityState, decode_dis
 from sensorsim.trainer.host_state import Triple
 from sensorsim.trainer.local_place import LocalPlace, geodetic_from_geocentric
-from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, FloatArray, angles_of, turned
+from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, FloatArray, angles_of, attitude
 
 SILENCE = 12.0  # [s] after which an entity is gone: 2.4 heartbeats of 5 s [IEEE1278]
 MOST_ENTITIES = 4096
@@ -70,8 +70,8 @@ class DisListener:
         if position is None:
             return None
         east, north, up = position.tolist()
-        heading = radians(-self._place.convergence(latitude, longitude))
-        map_ned = turned(np.array([0.0, 0.0, heading]), 1.0) @ _ned_from_centred(latitude, longitude)
+        heading = -self._place.convergence(latitude, longitude)
+        map_ned = attitude((heading, 0.0, 0.0)) @ _ned_from_centred(latitude, longitude)
         return HeardEntity(
             identity=state.identity,
             kind=state.kind,

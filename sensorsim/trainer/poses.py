@@ -73,8 +73,7 @@ def _top_level(entity: Entity, place: Triple, elapsed: float, around: Surroundin
     if position is None:
         return None
     yaw, pitch, roll = entity.angles
-    heading = np.radians(-around.place.convergence(latitude, longitude))
-    map_from_true = ENU_FROM_NED @ turned(np.array([0.0, 0.0, heading]), 1.0)
+    map_from_true = ENU_FROM_NED @ attitude((-around.place.convergence(latitude, longitude), 0.0, 0.0))
     way, axes = moved(entity.rates, (yaw, pitch, roll), elapsed)
     position = position + map_from_true @ way
     pose = Pose(position=position, attitude=map_from_true @ axes)
