@@ -9,6 +9,7 @@ from sensorsim.trainer.host_state import SensorState, View
 from sensorsim.trainer.image_generator import ImageGenerator
 from sensorsim.trainer.local_place import LocalPlace, scene_place
 from sensorsim.trainer.poses import Surroundings
+from sensorsim.trainer.session import SessionReport, run_session
 from sensorsim.trainer.settings import ImageSettings
 from sensorsim.trainer.terrain import Terrain, build_terrain
 from sensorsim.trainer.udp import Endpoint, UdpEndpoint
@@ -25,11 +26,13 @@ __all__ = [
     "LocalPlace",
     "PictureSource",
     "SensorState",
+    "SessionReport",
     "Surroundings",
     "Terrain",
     "UdpEndpoint",
     "View",
     "ViewRequest",
     "build_terrain",
+    "run_session",
     "scene_place",
 ]

@@ -58,6 +58,11 @@ class ImageGenerator:
         self._baked = self._asked = wanted_bake(self.state, settings.start, utc_offset)
         self._pending = False
 
+    @property
+    def is_fresh(self) -> bool:
+        """Whether the host's message for the frame under way has come."""
+        return self._fresh
+
     def start_frame(self, time: float) -> bytes:
         """Begins a frame at an IG time [s]: Start of Frame, and the answers that are due."""
         if not isfinite(time) or (self.frame >= 0 and time < self._time):
