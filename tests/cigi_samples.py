@@ -1,6 +1,8 @@
-"""Packets with every field set at random, and pcap files that an independent decoder reads."""
+"""Packets with every field set at random, pcap files, and the independent decoder that reads them."""
 
+import shutil
 import struct
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -44,3 +46,12 @@ def write_pcap(path: Path, datagrams: list[tuple[bytes, int]], linktype: int = 2
         ip = struct.pack(">BBHHHBBH", 0x45, 0, 20 + len(udp), number, 0, 64, 17, 0) + address + address + udp
         data += struct.pack("<IIII", number, 0, len(ip), len(ip)) + ip
     path.write_bytes(data)
+
+
+def run_tshark(*arguments: str) -> str:
+    """Its standard output; an assertion that says what to do where it is missing."""
+    tool = shutil.which("tshark")
+    assert tool, "tshark is not installed: run tools/bootstrap dev, or apt-get install tshark"
+    done = subprocess.run([tool, *arguments], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout

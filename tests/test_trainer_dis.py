@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cigi_samples import write_pcap
+from cigi_samples import run_tshark, write_pcap
 from pyproj import Transformer
-from test_trainer_tshark import run_tshark
 from trainer_world import PLACE
 
 from sensorsim.errors import InputError

@@ -3,15 +3,13 @@
 `tools/bootstrap dev` installs tshark; where it is missing these tests fail and say so.
 """
 
-import shutil
 import struct
-import subprocess
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from cigi_samples import OWN, first_packet, sample, write_pcap
+from cigi_samples import OWN, first_packet, run_tshark, sample, write_pcap
 
 from sensorsim.trainer.dialect import CIGI_33
 from sensorsim.trainer.encode import encode_message
@@ -21,15 +19,6 @@ HOST_PORT, IMAGE_PORT = 8000, 8001
 IMAGE_NUMBERS = 101  # packets from here on are the image generator's
 ROUNDS = 4
 WIRESHARK_NAMES = {"los_ext_response": "3_2_los_ext_response"}  # of 3.2 and later
-
-
-def run_tshark(*arguments: str) -> str:
-    """Its standard output; an assertion that says what to do where it is missing."""
-    tool = shutil.which("tshark")
-    assert tool, "tshark is not installed: run tools/bootstrap dev, or apt-get install tshark"
-    done = subprocess.run([tool, *arguments], capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def messages(order: ByteOrder) -> list[tuple[list[Packet], bytes, int]]:

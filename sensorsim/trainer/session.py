@@ -1,8 +1,8 @@
 """The loop that joins host, image generator and whatever draws: frames at a steady rate, each with its answer.
 
 A frame: Start of Frame goes out; the host's message is awaited for a share of the period (synchronous), or what has
-come is taken (asynchronous); the picture is drawn and delivered. A frame that takes too long delays the next ones, which
-then start at the next whole period.
+come is taken (asynchronous); the picture is drawn and delivered. A frame that takes too long delays the next ones,
+which then start at the next whole period.
 """
 
 from collections.abc import Callable, Mapping
