@@ -22,6 +22,7 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
 for command in (render, capture, gallery, diff, scene, wall, info):
     app.command()(command)

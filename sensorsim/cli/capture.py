@@ -20,6 +20,7 @@ from sensorsim.cli.options import (
     SceneName,
     bake_progress,
     find_weather,
+    local_day,
     make_folder,
     read_moment,
     read_size,
@@ -88,8 +89,9 @@ def capture(
     moment, place = read_moment(at), load_scene(scene, level=level)
     route = _route(place, path, rate, camera, moment, until, every)
     with bake_progress("baking") as progress:
-        found = find_weather(weather, moment.date())
-        world = build_world(place, found, image_day=moment.date(), settings=bake_preset(preset), progress=progress)
+        found = find_weather(weather, local_day(moment, place.site.utc_offset))
+        day = local_day(moment, found.site.utc_offset)
+        world = build_world(place, found, image_day=day, settings=bake_preset(preset), progress=progress)
     shots = _shots(route, moment, world)
     make_folder(out)
     names = tuple(name for name in planes.split(",") if name)

@@ -6,11 +6,13 @@ from datetime import datetime
 
 import numpy as np
 
+from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.errors import InputError
-from sensorsim.frames.frame import JSON, Frame, build_frame
+from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.frames.writer import inputs_sha256
 from sensorsim.render import Camera, Picture, Renderer
 from sensorsim.sensor import DisplaySettings, Sensor
+from sensorsim.tables import ShadeTables, SurfaceOffsets
 from sensorsim.version import __version__
 
 
@@ -30,6 +32,12 @@ def take_frame(
     picture = renderer.render(camera, time_of_day, display=display, frame=frame)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
     return build_frame(picture.planes, {**request, **_outcome(picture), "request_sha256": inputs_sha256(request)})
+
+
+def plane_names(sensor: Sensor) -> tuple[str, ...]:
+    """Planes that a frame of a sensor has: a signal by a detector, an apparent temperature in emissive bands."""
+    there = {"signal": sensor.detector is not None, "apparent_temperature": sensor.mode == "emissive"}
+    return tuple(name for name in STANDARD_PLANES if there.get(name, True))
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
@@ -65,6 +73,8 @@ def request_settings(
         "time_of_day_s": time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
+        "lead_in": _lead_in_settings(world.tables),
+        "exchange": _exchange_settings(world.offsets),
         "world_sha256": world.inputs_sha256,
         "sensor": _sensor_settings(sensor),
         "size": list(renderer.size),
@@ -83,6 +93,23 @@ def _outcome(picture: Picture) -> dict[str, JSON]:
         "display": {**window, "tone": display.tone, "gamma": display.gamma},
         "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
     }
+
+
+def _lead_in_settings(tables: ShadeTables) -> JSON:
+    """From how long before the image day walls were marched, and which began with their first day repeated."""
+    hours = [one.span / SECONDS_PER_HOUR for one in tables.lead_in]
+    repeated = [wall.name for wall, one in zip(tables.wall_types, tables.lead_in, strict=True) if one.repeated]
+    return {"shortest_h": min(hours), "longest_h": max(hours), "first_day_repeated": list(dict.fromkeys(repeated))}
+
+
+def _exchange_settings(offsets: SurfaceOffsets | None) -> JSON:
+    """What near surfaces do to each other, where they were asked for."""
+    if offsets is None:
+        return None
+    largest = float(np.max(np.abs(offsets.offset), initial=0.0))
+    return {
+        "surfaces": offsets.surface.size, "passes": offsets.passes, "left_K": offsets.left, "largest_K": largest
+    }  # fmt: skip
 
 
 def _sensor_settings(sensor: Sensor) -> dict[str, JSON]:

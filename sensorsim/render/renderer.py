@@ -117,8 +117,7 @@ class Renderer:
 
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
-        surfaces, mesh = world.scene.surfaces, world.scene.mesh
-        records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
+        mesh, records = world.scene.mesh, self._records(0.0)
         coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
         sky = LookupTable(
@@ -172,7 +171,15 @@ class Renderer:
             values=np.zeros(2) if table is None else table.radiance,
         )
 
+    def _records(self, time_of_day: float) -> NDArray[np.float32]:
+        """Surface table at a time of the image day [s]."""
+        world, surfaces = self.world, self.world.scene.surfaces
+        offset = None if world.offsets is None else world.offsets.at(time_of_day, surfaces.area.size)
+        return surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations, offset)
+
     def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
+        if self.world.offsets is not None:
+            update_table(self._tables["surface_table"], self._records(time_of_day))
         coefficients = self.world.tables.at(time_of_day)
         update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
         update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)

@@ -6,10 +6,17 @@ from datetime import date
 
 import numpy as np
 
-from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
+from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
+from sensorsim.tables import (
+    BakeSettings,
+    ShadeTables,
+    SurfaceOffsets,
+    cached_tables,
+    near_surface_offsets,
+    resolve_classes,
+)
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
 from sensorsim.tables.cache import inputs_digest
@@ -28,6 +35,7 @@ class World:
     season: Season
     assignment: Assignment
     tables: ShadeTables
+    offsets: SurfaceOffsets | None  # of near surfaces, where the settings ask for their exchange
     inputs_sha256: str  # of all that decides its frames: weather, walls, settings, code, geometry, surfaces
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
@@ -44,13 +52,18 @@ def build_world(
     """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
-    environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
     tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
+    tabled = inputs_digest(environment, assignment.wall_types, ground, settings)
+    offsets = None
+    if settings.exchange:
+        offsets = near_surface_offsets(
+            scene, assignment, environment, ground=ground, settings=settings, time_of_day=tables.time_of_day
+        )
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
@@ -61,7 +74,8 @@ def build_world(
         season=season,
         assignment=assignment,
         tables=tables,
-        inputs_sha256=_digest(scene, assignment, inputs_digest(environment, assignment.wall_types, ground, settings)),
+        offsets=offsets,
+        inputs_sha256=_digest(scene, assignment, f"{tabled} exchange {settings.exchange}"),
         warnings=() if mismatch is None else (mismatch,),
     )
 

@@ -8,7 +8,7 @@
 
 in vec3 from_camera;
 flat in vec4 record[4];
-flat in vec4 reflectance_record;
+flat in vec4 last_record;
 flat in int surface_id;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
@@ -18,11 +18,12 @@ void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
     Kelvin temperature =
-        surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
+        surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w)
+        + last_record.z;
 #if EMISSIVE
     Radiance source = emitted_radiance(temperature, record[1].w, normal);
 #else
-    Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
+    Radiance source = reflected_radiance(last_record.x, normal, record[3]);
 #endif
     quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
     id = surface_id;
