@@ -234,6 +234,17 @@ def test_many_questions_are_answered_over_several_frames_and_none_is_lost() -> N
     assert [number for frame in frames for number in frame] == list(range(40))
 
 
+def test_answers_that_do_not_fit_one_message_go_with_the_next() -> None:
+    """Sixty questions for one frame: 36 answers of 40 bytes fit beside a Start of Frame in 1472."""
+    host = Host()
+    place = geodetic(0.0, 0.0, 9.0)
+    host.frame(*[host.packet("hat_hot_request", hat_hot_id=number, type=2, **place) for number in range(40)])
+    host.send(*[host.packet("hat_hot_request", hat_hot_id=number, type=2, **place) for number in range(40, 60)])
+    frames = [[packet.values["hat_hot_id"] for packet in host.frame()[1:]] for _ in range(3)]
+    assert [len(frame) for frame in frames] == [36, 24, 0]
+    assert frames[0] + frames[1] == list(range(60))
+
+
 # --- line of sight -----------------------------------------------------------------------------------------------
 
 
