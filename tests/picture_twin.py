@@ -99,15 +99,20 @@ def reflected(world: World, surface: NDArray[np.int64], light: Illumination) -> 
     return np.asarray(world.assignment.nir_reflectance[surface] * (sun + sky + ground) / np.pi)
 
 
-def through_air(source: FloatArray, distance: FloatArray, light: Illumination) -> FloatArray:
-    """Radiance at the sensor [W m-2 sr-1] over distances [m], eq. 15 of the report."""
-    transmittance = np.exp(-light.attenuation * distance)
-    return np.asarray(transmittance * source + (1.0 - transmittance) * light.air_radiance)
+def through_air(
+    source: FloatArray, distance: FloatArray, camera: Camera, view: FloatArray, light: Illumination
+) -> FloatArray:
+    """Radiance at the sensor [W m-2 sr-1] over distances [m] along unit directions of view (..., 3)."""
+    height = float(camera.position[2])
+    return light.air.apparent_radiance(
+        source, distance, height, height + distance * view[..., 2], view @ light.sun_direction
+    )
 
 
 def background(camera: Camera, view: FloatArray, light: Illumination) -> FloatArray:
     """Radiance [W m-2 sr-1] where no surface is: the sky by elevation, and the ground plane through the air."""
     sky = np.interp(view[..., 2], np.linspace(0.0, 1.0, light.sky.size), light.sky)
-    down = np.maximum(-view[..., 2], 1e-300)
-    ground = through_air(np.asarray(light.ground_radiance), max(camera.position[2], 0.0) / down, light)
+    down = np.maximum(-view[..., 2], 1e-12)
+    distance = max(camera.position[2], 0.0) / down
+    ground = through_air(np.asarray(light.ground_radiance), distance, camera, view, light)
     return np.asarray(np.where(view[..., 2] >= 0.0, sky, ground))

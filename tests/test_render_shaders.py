@@ -9,26 +9,27 @@ import pytest
 from glsl_harness import evaluate
 from small_world import random_normals, tables
 
+from sensorsim.environment import AirPath, clear_path, single_term
 from sensorsim.gpu import constants_glsl, float_table
 from sensorsim.radiometry import FLIR_BAND, build_band_table
-from sensorsim.render.blocks import ILLUMINATION
+from sensorsim.render.air import air_values
+from sensorsim.render.blocks import AIR, ILLUMINATION
 from sensorsim.tables import LookupTable, evaluate_polynomial, surface_temperature
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 from sensorsim.thermal import quadrant_view_factors
 
 COUNT = 3000
+SUN = np.array([0.36, -0.48, 0.8])
 
 
 def _light(**changes: Any) -> dict[str, Any]:
     """Surroundings of a frame as the block takes them."""
     return {
         "quadrant": np.array([12.0, 30.0, 55.0, 9.0]),
-        "sun_direction": np.array([0.36, -0.48, 0.8]),
+        "sun_direction": SUN,
         "beam": 410.0,
         "sky_radiance": 21.0,
         "ground_radiance": 37.0,
-        "air_radiance": 34.0,
-        "attenuation": 2.3e-4,
         **changes,
     }
 
@@ -123,27 +124,65 @@ def test_white_roof_under_a_uniform_sky_is_as_bright_as_the_sky(ctx: moderngl.Co
     np.testing.assert_allclose(shaded, 20.0, rtol=1e-5)
 
 
-def _through_air(ctx: moderngl.Context, source: np.ndarray, distance: np.ndarray, **changes: Any) -> np.ndarray:
+def _air(**changes: Any) -> AirPath:
+    """Four terms that thin out and glow each in its own way."""
+    values: dict[str, Any] = {
+        "weight": np.array([0.55, 0.25, 0.15, 0.05]),
+        "coefficient": np.array([5e-5, 2e-4, 1e-3, 1e-2]),
+        "inverse_scale_height": np.array([1e-4, 3e-4, 7e-4, 0.0]),
+        "source": np.array([30.0, 33.0, 34.0, 34.5]),
+        "source_decay": 1.1e-4,
+        "beam_source": np.array([1.0, 0.5, 0.2, 0.0]),
+        "asymmetry": 0.65,
+    }
+    return AirPath(**{**values, **changes})
+
+
+def _through_air(
+    ctx: moderngl.Context, air: AirPath, source: np.ndarray, distance: np.ndarray,
+    view: np.ndarray | None = None, camera_height: float = 0.0,
+) -> np.ndarray:  # fmt: skip
+    if view is None:
+        view = np.tile([1.0, 0.0, 0.0], (len(source), 1))
     return evaluate(
-        ctx, "apparent_radiance(source, distance_)", {"source": source, "distance_": distance},
+        ctx, "apparent_radiance(source, distance_, distance_ * view.z, view)",
+        {"source": source, "distance_": distance, "view": view},
         include=["radiance/path.glsl"],
-        blocks={ILLUMINATION: ILLUMINATION.pack(**_light(**changes))},
+        blocks={AIR: AIR.pack(**air_values(air, camera_height, SUN))},
     )  # fmt: skip
 
 
+@pytest.mark.parametrize("camera_height", [0.0, 2.0, 150.0, 3000.0])
+def test_air_path_is_its_twin(ctx: moderngl.Context, camera_height: float) -> None:
+    """All ranges, up and down, into and away from the sun; expected: 1e-5, single precision's share of exponentials."""
+    rng, air = np.random.default_rng(9), _air()
+    source, view = rng.uniform(0.0, 90.0, COUNT), random_normals(COUNT)
+    target = rng.uniform(0.0, 4000.0, COUNT)
+    distance = np.minimum(np.abs((target - camera_height) / view[:, 2]), 60e3)
+    target = camera_height + distance * view[:, 2]
+    shaded = _through_air(ctx, air, source, distance, view, camera_height)
+    twin = air.apparent_radiance(source, distance, camera_height, target, view @ SUN)
+    np.testing.assert_allclose(shaded, twin, rtol=2e-5)
+
+
 def test_path_leaves_a_near_surface_alone_and_a_far_one_to_the_air(ctx: moderngl.Context) -> None:
-    """The limits of eq. 15 of the report: range 0 and infinite range; and its twin between them."""
-    rng = np.random.default_rng(9)
-    source = rng.uniform(0.0, 90.0, COUNT).astype(np.float32)
-    np.testing.assert_array_equal(_through_air(ctx, source, np.zeros(COUNT)), source)
-    np.testing.assert_array_equal(_through_air(ctx, source, np.full(COUNT, 1e9)), np.float32(34.0))
-    np.testing.assert_array_equal(_through_air(ctx, source, np.full(COUNT, 1e5), attenuation=0.0), source)
-    distance = rng.uniform(0.0, 20e3, COUNT)
+    """The limits: range 0, infinite range, and no air."""
+    source = np.random.default_rng(9).uniform(0.0, 90.0, COUNT).astype(np.float32)
+    report = single_term(2.3e-4, 34.0)
+    np.testing.assert_allclose(_through_air(ctx, _air(), source, np.zeros(COUNT)), source, rtol=2e-7, atol=4e-6)
+    np.testing.assert_array_equal(_through_air(ctx, report, source, np.full(COUNT, 1e9)), np.float32(34.0))
+    np.testing.assert_array_equal(_through_air(ctx, clear_path(), source, np.full(COUNT, 1e5)), source)
+
+
+def test_air_of_the_report_is_its_equation_15(ctx: moderngl.Context) -> None:
+    rng = np.random.default_rng(10)
+    source, distance, view = rng.uniform(0.0, 90.0, COUNT), rng.uniform(0.0, 20e3, COUNT), random_normals(COUNT)
     transmittance = np.exp(-2.3e-4 * distance)
-    twin = transmittance * source + (1.0 - transmittance) * 34.0
-    np.testing.assert_allclose(_through_air(ctx, source, distance), twin, rtol=1e-5)
+    shaded = _through_air(ctx, single_term(2.3e-4, 34.0), source, distance, view, 700.0)
+    np.testing.assert_allclose(shaded, transmittance * source + (1.0 - transmittance) * 34.0, rtol=1e-5)
 
 
 def test_surface_as_bright_as_the_air_stays_so_at_any_range(ctx: moderngl.Context) -> None:
     distance = np.geomspace(0.1, 1e6, 400)
-    np.testing.assert_allclose(_through_air(ctx, np.full(400, 34.0), distance), 34.0, rtol=2e-7)
+    air = _air(source=np.full(4, 34.0), source_decay=0.0, beam_source=np.zeros(4))
+    np.testing.assert_allclose(_through_air(ctx, air, np.full(400, 34.0), distance), 34.0, rtol=4e-7)

@@ -5,7 +5,8 @@ grid for the thermal model, and `Environment.at` gives the state at one moment f
 """
 
 from sensorsim.environment.air_mass import relative_air_mass
-from sensorsim.environment.atmosphere import Transmittance, attenuation_coefficient, band_transmittance
+from sensorsim.environment.air_path import AirPath, clear_path, right_angle_phase, single_term
+from sensorsim.environment.atmosphere import LAPSE_RATE, Transmittance, attenuation_coefficient, band_transmittance
 from sensorsim.environment.band_sky import BandSky, band_sky, clear_sky_emissivity, zenith_emissivity
 from sensorsim.environment.build import DEFAULT_VISIBILITY, build_environment
 from sensorsim.environment.environment import Environment
@@ -54,11 +55,13 @@ __all__ = [
     "DEFAULT_VISIBILITY",
     "GROUND_ALBEDO",
     "GROUND_STATES",
+    "LAPSE_RATE",
     "NIGHT_GLOW",
     "QUADRANT_AZIMUTH",
     "QUADRANT_NAMES",
     "QUADRANT_SOLID_ANGLE",
     "SNOW_MAXIMUM_TEMPERATURE",
+    "AirPath",
     "BandSky",
     "Environment",
     "EnvironmentSample",
@@ -76,6 +79,7 @@ __all__ = [
     "check_place",
     "circumsolar_irradiance",
     "circumsolar_share",
+    "clear_path",
     "clear_sky_emissivity",
     "clear_sky_irradiance_dilley",
     "clear_sky_irradiance_prata",
@@ -90,7 +94,9 @@ __all__ = [
     "read_weather",
     "relative_air_mass",
     "resample_weather",
+    "right_angle_phase",
     "saturation_vapour_pressure",
+    "single_term",
     "sky_brightness",
     "sky_irradiance",
     "sky_temperature",

@@ -42,6 +42,7 @@ def build_environment(
     lead_in_days: float = 3.0,
     step: float = 300.0,
     visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
 ) -> Environment:
     """Environment from `lead_in_days` before the image day to its last midnight.
 
@@ -53,6 +54,7 @@ def build_environment(
     lead_in_days : [day] history before the image day, a whole number of steps
     step : [s] a whole number of them makes a day
     visibility : [m] meteorological range
+    aerosol : kind of haze or fog, as `band_transmittance` knows them
 
     Raises
     ------
@@ -68,11 +70,11 @@ def build_environment(
     series = resample_weather(weather, grid + (start - weather.start).total_seconds())
     end = image_start + timedelta(days=1)
     light = _light(cut_weather(weather, start, end), series)
-    return _assemble(series, light, start=start, image_start=image_start, step=step, visibility=visibility)
+    return _assemble(series, light, start=start, image_start=image_start, step=step, air=(visibility, aerosol))
 
 
 def _assemble(
-    series: Weather, light: _Light, *, start: datetime, image_start: datetime, step: float, visibility: float
+    series: Weather, light: _Light, *, start: datetime, image_start: datetime, step: float, air: tuple[float, str]
 ) -> Environment:
     """Put weather, sun, sky and ground on the grid together."""
     vapour = vapour_pressure(series.air_temperature, series.relative_humidity)
@@ -92,7 +94,8 @@ def _assemble(
         precipitation=series.precipitation,
         ground_state=series.ground_state,
         ground_albedo=ground_albedo(series.ground_state),
-        visibility=visibility,
+        visibility=air[0],
+        aerosol=air[1],
         sun_direction=light.position.direction,
         sun_elevation=light.position.elevation,
         beam_irradiance=light.broadband.beam,

@@ -35,6 +35,7 @@ class Environment:
     ground_state: NDArray[np.str_]  # (n,) 'dry', 'wet' or 'snow'
     ground_albedo: FloatArray  # (n,) [-] solar
     visibility: float  # [m] meteorological range, the same all the time
+    aerosol: str  # kind of haze or fog
     sun_direction: FloatArray  # (n, 3) unit vector east, north, up towards the sun, also below the horizon
     sun_elevation: FloatArray  # (n,) [deg] apparent
     beam_irradiance: FloatArray  # (n,) [W m-2] normal to the sun
@@ -76,7 +77,6 @@ class Environment:
         def mix(values: FloatArray) -> FloatArray:
             return np.asarray((1.0 - share) * values[low] + share * values[low + 1], dtype=np.float64)
 
-        direction = mix(self.sun_direction)
         return EnvironmentSample(
             time_of_day=time_of_day,
             air_temperature=float(mix(self.air_temperature)),
@@ -88,7 +88,8 @@ class Environment:
             ground_state=str(self.ground_state[held]),
             ground_albedo=float(self.ground_albedo[held]),
             visibility=self.visibility,
-            sun_direction=direction / np.linalg.norm(direction),
+            aerosol=self.aerosol,
+            sun_direction=_unit(mix(self.sun_direction)),
             sun_elevation=float(mix(self.sun_elevation)),
             beam_irradiance=float(mix(self.beam_irradiance)),
             quadrant_irradiance=mix(self.quadrant_irradiance),
@@ -96,3 +97,7 @@ class Environment:
             nir_beam=float(mix(self.nir_beam)),
             nir_quadrant=mix(self.nir_quadrant),
         )
+
+
+def _unit(direction: FloatArray) -> FloatArray:
+    return np.asarray(direction / np.linalg.norm(direction))

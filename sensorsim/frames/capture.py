@@ -60,7 +60,19 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
             "span": display.span,
             "unit": "W m-2 sr-1",
         },
-        "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
+        "atmosphere": _air_settings(renderer, picture),
+    }
+
+
+def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
+    """Name and terms of the air that a picture was seen through."""
+    air = picture.illumination.air
+    return {
+        "name": renderer.atmosphere,
+        "weight": air.weight.tolist(),
+        "coefficient_per_m": air.coefficient.tolist(),
+        "inverse_scale_height_per_m": air.inverse_scale_height.tolist(),
+        "source_W_m-2_sr-1": air.source.tolist(),
     }
 
 

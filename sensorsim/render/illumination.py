@@ -3,7 +3,7 @@
 Emissive bands: sky and ground glow by their own temperatures. Reflective bands: sun, sky and sunlit ground.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from sensorsim.constants import PI
 from sensorsim.environment import (
     CLOUD_TEMPERATURE_DEPRESSION,
+    AirPath,
     EnvironmentSample,
-    attenuation_coefficient,
     band_sky,
+    clear_path,
 )
 from sensorsim.radiometry import BandTable
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_path
 from sensorsim.sensor import Sensor
 from sensorsim.tables import LookupTable
 
@@ -33,8 +35,7 @@ class Illumination:
     quadrant: FloatArray  # (4,) irradiance of the horizontal from the N, E, S and W quarter of the sky
     sky: FloatArray  # (SKY_ENTRIES,) radiance at elevations whose sine goes from 0 to 1
     ground_radiance: float
-    air_radiance: float  # of an infinite path through the air
-    attenuation: float  # [m-1]
+    air: AirPath
 
     @property
     def sky_radiance(self) -> float:
@@ -53,24 +54,27 @@ class Illumination:
 
 
 def illuminate(
-    sensor: Sensor, sample: EnvironmentSample, ground_temperature: float, table: BandTable | None
+    sensor: Sensor,
+    sample: EnvironmentSample,
+    ground_temperature: float,
+    table: BandTable | None,
+    *,
+    atmosphere: str = DEFAULT_ATMOSPHERE,
+    camera_height: float = 0.0,
 ) -> Illumination:
-    """Surroundings of a moment as `sensor` sees them; `table` is its band's, for emissive sensors."""
-    attenuation = attenuation_coefficient(
-        sensor.band.name,
-        air_temperature=sample.air_temperature,
-        relative_humidity=sample.relative_humidity,
-        visibility=sample.visibility,
-        precipitation=sample.precipitation,
-    )
-    if table is None:
-        return _reflective(sample, attenuation)
-    return _emissive(sample, ground_temperature, table, attenuation)
+    """Surroundings of a moment as `sensor` sees them from a height [m]; `table` is its band's, if it is emissive.
+
+    InputError for an atmosphere that is unknown or that this moment is not covered by.
+    """
+    around = _reflective(sample) if table is None else _emissive(sample, ground_temperature, table)
+    air = air_path(
+        atmosphere, sensor, sample, table, sky_radiance=around.sky_radiance, horizon_radiance=float(around.sky[0]),
+        ground_radiance=around.ground_radiance, camera_height=camera_height,
+    )  # fmt: skip
+    return replace(around, air=air)
 
 
-def _emissive(
-    sample: EnvironmentSample, ground_temperature: float, table: BandTable, attenuation: float
-) -> Illumination:
+def _emissive(sample: EnvironmentSample, ground_temperature: float, table: BandTable) -> Illumination:
     parts = band_sky(
         np.degrees(np.arcsin(_sines())), vapour_pressure=sample.vapour_pressure, cloud_cover=sample.cloud_cover
     )
@@ -82,23 +86,20 @@ def _emissive(
         quadrant=np.zeros(4),
         sky=parts.air * air + parts.cloud * cloud,
         ground_radiance=float(table.radiance_at(ground_temperature)),  # a near black body, section 3.1.3
-        air_radiance=air,
-        attenuation=attenuation,
+        air=clear_path(),
     )
 
 
-def _reflective(sample: EnvironmentSample, attenuation: float) -> Illumination:
+def _reflective(sample: EnvironmentSample) -> Illumination:
     diffuse = float(np.sum(sample.nir_quadrant))
     received = sample.nir_beam * max(float(sample.sun_direction[2]), 0.0) + diffuse
-    sky = diffuse / PI
     return Illumination(
         sun_direction=sample.sun_direction,
         beam=sample.nir_beam,
         quadrant=sample.nir_quadrant,
-        sky=np.full(SKY_ENTRIES, sky),
+        sky=np.full(SKY_ENTRIES, diffuse / PI),
         ground_radiance=sample.ground_albedo * received / PI,
-        air_radiance=sky,  # the air lights up to the brightness of the horizon
-        attenuation=attenuation,
+        air=clear_path(),
     )
 
 

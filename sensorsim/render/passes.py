@@ -6,7 +6,7 @@ import moderngl
 
 from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
 from sensorsim.gpu.mesh import MeshBuffers
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 
 TEXTURE_UNITS = {
     "surface_table": 0,
@@ -48,7 +48,7 @@ def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[st
         ctx,
         "scene/surface.vert",
         "scene/surface.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("surface_table", "coefficient_table", "band_radiance_table"),
         generated={**generated, "constants": constants_glsl()},
         defines={"EMISSIVE": int(emissive)},
@@ -62,7 +62,7 @@ def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass
         ctx,
         "common/screen.vert",
         "scene/background.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("sky_radiance_table",),
         generated=generated,
     )

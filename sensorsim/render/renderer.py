@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from sensorsim.errors import NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
+from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
 from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
@@ -22,7 +23,7 @@ from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
 from sensorsim.tables import LookupTable
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 
-_BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
+_BLOCKS = (VIEW_FRAME, ILLUMINATION, AIR, DISPLAY)
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
 
@@ -41,8 +42,11 @@ class Renderer:
     """Draws a world as one sensor sees it. Use as a context manager: it holds an OpenGL context."""
 
     def __init__(
-        self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto"
-    ) -> None:
+        self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
+        atmosphere: str = DEFAULT_ATMOSPHERE,
+    ) -> None:  # fmt: skip
+        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces."""
+        self.atmosphere = check_atmosphere(atmosphere)
         self.world = world
         self.sensor = sensor
         self.size = sensor.size if size is None else size
@@ -78,10 +82,10 @@ class Renderer:
         emissive bands, apparent_temperature [K]. `illumination` replaces the surroundings of the moment.
         """
         if illumination is None:
-            illumination = self.illuminate(time_of_day)
+            illumination = self.illuminate(time_of_day, float(camera.position[2]))
         with self.ctx:  # another renderer's context may have become the current one
             self._set_moment(time_of_day, illumination)
-            self._draw(camera)
+            self._draw(camera, illumination)
             planes = self._read()
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
             planes["display"] = self._display(settings)
@@ -89,13 +93,16 @@ class Renderer:
             planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )
 
-    def illuminate(self, time_of_day: float) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band."""
+    def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
+        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
-        return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
+        return illuminate(
+            self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table,
+            atmosphere=self.atmosphere, camera_height=camera_height,
+        )  # fmt: skip
 
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
@@ -152,12 +159,10 @@ class Renderer:
                 beam=illumination.beam,
                 sky_radiance=illumination.sky_radiance,
                 ground_radiance=illumination.ground_radiance,
-                air_radiance=illumination.air_radiance,
-                attenuation=illumination.attenuation,
             )
         )
 
-    def _draw(self, camera: Camera) -> None:
+    def _draw(self, camera: Camera, illumination: Illumination) -> None:
         position = self.world.scene.mesh.position
         near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
         corner, right, up = camera.view_rays(self.size)
@@ -170,6 +175,8 @@ class Renderer:
                 view_up=up,
             )
         )
+        air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
+        self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
         self._target.use()
         self._target.clear_depth()

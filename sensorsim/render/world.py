@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import date
 
-from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
+from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
@@ -33,15 +33,21 @@ def build_world(
     *,
     image_day: date,
     settings: BakeSettings | None = None,
+    visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
     catalogue: Catalogue | None = None,
     progress: Progress | None = None,
 ) -> World:
-    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
+    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning.
+
+    visibility [m] and aerosol, the kind of haze or fog, are those of the air that the scene is seen through.
+    """
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
     environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step,
+        visibility=visibility, aerosol=aerosol,
+    )  # fmt: skip
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
     tables = cached_tables(

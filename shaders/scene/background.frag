@@ -3,8 +3,11 @@
 // plane of [Report1978] section 3.1.3 through its air path.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
+#include "generated/illumination_block.glsl"
 #include "generated/sky_radiance.glsl"
 #include "radiance/path.glsl"
+
+const Metre FARTHEST = 1e9;  // along the horizon; all air is opaque before
 
 in vec2 picture_position;
 
@@ -14,7 +17,8 @@ layout(location = 1) out int id;
 Radiance background_radiance(Direction view) {
     if (view.z >= 0.0) return sky_radiance(view.z);
     Metre height = max(view_frame.camera_position.z, 0.0);
-    return apparent_radiance(illumination.ground_radiance, height / -view.z);
+    Metre range = min(height / -view.z, FARTHEST);
+    return apparent_radiance(illumination.ground_radiance, range, -height, view);
 }
 
 void main() {

@@ -24,6 +24,7 @@ void main() {
 #else
     Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
 #endif
-    quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
+    Radiance seen = apparent_radiance(source, range, from_camera.z, from_camera / range);
+    quantities = vec4(seen, temperature, range, 0.0);
     id = surface_id;
 }
