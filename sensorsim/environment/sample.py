@@ -34,6 +34,8 @@ class EnvironmentSample:
     sky_temperature: float  # [K] black hemisphere, all long wavelengths
     nir_beam: float  # [W m-2] normal to the sun, 0.8-1.1 um
     nir_quadrant: FloatArray  # (4,) [W m-2] diffuse on the horizontal, 0.8-1.1 um
+    moon_direction: FloatArray  # (3,) unit vector east, north, up
+    moon_beam: float  # [W m-2] normal to the moon, 0.8-1.1 um
 
     @property
     def cloud_temperature(self) -> float:
