@@ -111,7 +111,12 @@ def through_air(
 
 def background(camera: Camera, view: FloatArray, light: Illumination) -> FloatArray:
     """Radiance [W m-2 sr-1] where no surface is: the sky by elevation, and the ground plane through the air."""
-    sky = np.interp(view[..., 2], np.linspace(0.0, 1.0, light.sky.size), light.sky)
+    sine = np.linspace(0.0, 1.0, light.sky.size)
+    sky = np.interp(view[..., 2], sine, light.sky)
+    if light.glow is not None:
+        cosine = np.linspace(-1.0, 1.0, light.glow.indicatrix.size)
+        around = np.interp(view @ light.sun_direction, cosine, light.glow.indicatrix)
+        sky = sky + np.interp(view[..., 2], sine, light.glow.gradation) * around
     down = np.maximum(-view[..., 2], 1e-12)
     distance = max(camera.position[2], 0.0) / down
     ground = through_air(np.asarray(light.ground_radiance), distance, camera, view, light)

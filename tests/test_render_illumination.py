@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from small_world import environment, tables
@@ -67,15 +69,59 @@ def test_low_light_adds_up(hour: float) -> None:
     light = illuminate(load_sensor("lltv"), sample, 280.0, None)
     diffuse = float(np.sum(sample.nir_quadrant))
     assert np.pi * light.sky_radiance == pytest.approx(diffuse, rel=1e-9)
-    received = sample.nir_beam * max(float(sample.sun_direction[2]), 0.0) + diffuse
+    received = light.beam * max(float(light.sun_direction[2]), 0.0) + diffuse
+    assert light.beam == max(sample.nir_beam, sample.moon_beam)
     assert np.pi * light.ground_radiance == pytest.approx(sample.ground_albedo * received, rel=1e-9)
     assert (light.air.coefficient > 0.0).all()
 
 
 def test_low_light_by_night_is_only_the_glow_of_the_sky() -> None:
-    noon, night = (illuminate(load_sensor("lltv"), _sample(hour), 280.0, None) for hour in (12.0, 0.0))
-    assert night.beam == 0.0
+    noon, night = (illuminate(load_sensor("lltv"), _sample(hour), 280.0, None) for hour in (12.0, 4.0))
+    assert night.beam == 0.0  # the half moon of that night has set
+    assert night.glow is None
     assert 0.0 < night.sky_radiance < 1e-4 * noon.sky_radiance
+
+
+@pytest.mark.parametrize("hour", [8.0, 12.0, 16.0])
+@pytest.mark.parametrize("cover", [0.0, 0.4, 1.0])
+def test_low_light_sky_gives_a_roof_its_diffuse_light(hour: float, cover: float) -> None:
+    """Rationale: radiance times cosine over the whole hemisphere, in fine steps, is the irradiance; expected 0.5 %."""
+    sample = replace(_sample(hour), cloud_cover=cover)
+    light = illuminate(load_sensor("lltv"), sample, 280.0, None)
+    sine = (np.arange(600) + 0.5) / 600.0
+    azimuth = 2.0 * np.pi * (np.arange(720) + 0.5) / 720.0
+    flat = np.sqrt(1.0 - sine**2)[:, None]
+    cosine = sine[:, None] * light.sun_direction[2] + flat * (
+        np.cos(azimuth) * light.sun_direction[0] + np.sin(azimuth) * light.sun_direction[1]
+    )
+    gradation, indicatrix = light.glow_tables()
+    radiance = light.sky_table().evaluate(sine)[:, None] + (
+        gradation.evaluate(sine)[:, None] * indicatrix.evaluate(cosine)
+    )
+    assert (radiance >= 0.0).all()
+    irradiance = 2.0 * np.pi * float(np.mean(radiance * sine[:, None]))
+    assert irradiance == pytest.approx(float(np.sum(sample.nir_quadrant)), rel=5e-3)
+
+
+def test_clear_low_light_sky_is_brightest_by_the_sun_and_the_overcast_one_overhead() -> None:
+    clear, dull = (
+        illuminate(load_sensor("lltv"), replace(_sample(12.0), cloud_cover=cover), 280.0, None) for cover in (0.0, 1.0)
+    )
+    assert clear.glow is not None
+    assert clear.glow.indicatrix[-1] > 4.0 * clear.glow.indicatrix[512]
+    assert clear.sky.max() == 0.0
+    assert dull.glow is None or dull.glow.irradiance == 0.0
+    assert dull.sky[-1] == pytest.approx(2.986 * dull.sky[0], rel=1e-3)  # 1 + 4 exp(-0.7), [ISO15469] type 1
+
+
+def test_moon_lights_what_the_sun_does_not(table: BandTable) -> None:
+    night = replace(_sample(4.0), moon_beam=3e-4, moon_direction=np.array([0.6, 0.0, 0.8]))
+    light = illuminate(load_sensor("lltv"), night, 280.0, None)
+    assert light.beam == 3e-4
+    np.testing.assert_array_equal(light.sun_direction, [0.6, 0.0, 0.8])
+    day = replace(_sample(12.0), moon_beam=3e-4, moon_direction=np.array([0.6, 0.0, 0.8]))
+    assert illuminate(load_sensor("lltv"), day, 280.0, None).beam == day.nir_beam
+    assert illuminate(load_sensor("flir"), night, 280.0, table).beam == 0.0
 
 
 def test_air_of_the_report_has_one_coefficient_exact_at_a_kilometre(table: BandTable) -> None:
@@ -116,7 +162,7 @@ def test_air_light_by_day_is_brighter_towards_the_sun() -> None:
     light = illuminate(load_sensor("lltv"), _sample(13.0), 280.0, None)
     far = [float(light.air.apparent_radiance(0.0, 20e3, 50.0, 50.0, cosine)) for cosine in (-1.0, 0.0, 0.5, 1.0)]
     assert (np.diff(far) > 0.0).all()
-    night = illuminate(load_sensor("lltv"), _sample(0.0), 280.0, None)
+    night = illuminate(load_sensor("lltv"), _sample(4.0), 280.0, None)
     assert float(night.air.beam_source.max()) == 0.0
 
 

@@ -12,6 +12,7 @@ from sensorsim.environment.build import DEFAULT_VISIBILITY, build_environment
 from sensorsim.environment.environment import Environment
 from sensorsim.environment.ground import GROUND_ALBEDO, SNOW_MAXIMUM_TEMPERATURE, ground_albedo
 from sensorsim.environment.humidity import saturation_vapour_pressure, vapour_density, vapour_pressure
+from sensorsim.environment.moon import Moonlight, moonlight
 from sensorsim.environment.near_infrared import NearInfrared, near_infrared
 from sensorsim.environment.night import NIGHT_GLOW, twilight_irradiance
 from sensorsim.environment.perez_sky import (
@@ -30,6 +31,7 @@ from sensorsim.environment.quadrants import (
 )
 from sensorsim.environment.sample import EnvironmentSample
 from sensorsim.environment.site import Site
+from sensorsim.environment.sky_glow import SkyGlow, clear_glow, overcast_radiance
 from sensorsim.environment.sun import (
     Sunlight,
     SunPosition,
@@ -65,9 +67,11 @@ __all__ = [
     "BandSky",
     "Environment",
     "EnvironmentSample",
+    "Moonlight",
     "NearInfrared",
     "Site",
     "SkyBrightness",
+    "SkyGlow",
     "SunPosition",
     "Sunlight",
     "Transmittance",
@@ -79,6 +83,7 @@ __all__ = [
     "check_place",
     "circumsolar_irradiance",
     "circumsolar_share",
+    "clear_glow",
     "clear_path",
     "clear_sky_emissivity",
     "clear_sky_irradiance_dilley",
@@ -87,7 +92,9 @@ __all__ = [
     "great_circle_distance",
     "ground_albedo",
     "linke_turbidity",
+    "moonlight",
     "near_infrared",
+    "overcast_radiance",
     "perez_irradiance",
     "place_mismatch",
     "quadrant_irradiance",

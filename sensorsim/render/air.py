@@ -36,14 +36,17 @@ def air_path(
     sample: EnvironmentSample,
     table: BandTable | None,
     *,
+    beam: float,
     sky_radiance: float,
-    horizon_radiance: float,
     ground_radiance: float,
     camera_height: float,
 ) -> AirPath:
-    """Air of a moment; radiances [W m-2 sr-1] are those of the surroundings, `table` is None for reflective bands."""
+    """Air of a moment; beam [W m-2] and radiances [W m-2 sr-1] are of its surroundings.
+
+    `table` is None for reflective bands. Errors as `illuminate`.
+    """
     band = sensor.band.name
-    glow = horizon_radiance if table is None else float(table.radiance_at(sample.air_temperature))
+    glow = sky_radiance if table is None else float(table.radiance_at(sample.air_temperature))
     if check_atmosphere(atmosphere) == "none":
         return clear_path()
     if atmosphere == "report":
@@ -53,14 +56,13 @@ def air_path(
     found = sample.transmittance(band)
     around = 0.5 * (sky_radiance + ground_radiance)  # what falls on the haze from above and below
     emitted = 0.0 if table is None else 1.0
-    sunlit = sample.nir_beam if table is None else 0.0
     return AirPath(
         weight=found.weight,
         coefficient=found.coefficient,
         inverse_scale_height=found.inverse_scale_height,
         source=emitted * (1.0 - found.scattered) * glow + found.scattered * around,
         source_decay=0.0 if table is None else source_decay(table, sample.air_temperature),
-        beam_source=found.scattered * sunlit * right_angle_phase(_HAZE_ASYMMETRY),
+        beam_source=found.scattered * beam * right_angle_phase(_HAZE_ASYMMETRY),
         asymmetry=_HAZE_ASYMMETRY,
     )
 

@@ -14,6 +14,8 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "sky_gradation_table": 5,
+    "sky_indicatrix_table": 6,
 }
 
 
@@ -56,15 +58,17 @@ def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[st
     )
 
 
-def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass:
+def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
+    glow = () if emissive else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
         "common/screen.vert",
         "scene/background.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-        samplers=("sky_radiance_table",),
+        samplers=("sky_radiance_table", *glow),
         generated=generated,
+        defines={"EMISSIVE": int(emissive)},
     )
 
 

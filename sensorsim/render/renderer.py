@@ -15,7 +15,7 @@ from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
 from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
-from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
+from sensorsim.render.illumination import Illumination, dark, illuminate
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
 from sensorsim.render.surface_table import surface_table
 from sensorsim.render.world import World
@@ -110,27 +110,24 @@ class Renderer:
         records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
         coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
-        sky = LookupTable(
-            name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
-            values=np.zeros(SKY_ENTRIES),
-        )  # fmt: skip
+        skies = (dark().sky_table(), *dark().glow_tables())
         self._tables = {
             "surface_table": float_table(ctx, "surface_table", records),
             "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
-            "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
+            **{f"{table.name}_table": float_table(ctx, table.name, table.texels) for table in skies},
         }
         generated = {
             "coefficients": coefficient_glsl(coefficients.shape[-1]),
             "band_radiance": band.glsl(),
-            "sky_radiance": sky.glsl(),
+            **{table.name: table.glsl() for table in skies},
         }
         buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
         )
         emissive = self.sensor.mode == "emissive"
         self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
-        self._background = background_pass(ctx, generated)
+        self._background = background_pass(ctx, generated, emissive=emissive)
         self._show = display_pass(ctx)
         self._target = render_target(ctx, self.size, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
@@ -151,7 +148,8 @@ class Renderer:
     def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
         coefficients = self.world.tables.at(time_of_day)
         update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
-        update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
+        for table in (illumination.sky_table(), *illumination.glow_tables()):
+            update_table(self._tables[f"{table.name}_table"], table.texels)
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
                 quadrant=illumination.quadrant,
