@@ -79,9 +79,9 @@ class Frame:
 def build_frame(arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping[str, JSON]) -> Frame:
     """Frame of images (height, width) under the standard names, with their units and descriptions.
 
-    Names: display, radiance, apparent_temperature, surface_temperature, surface_id, feature, range. Display becomes
-    uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and for data that
-    the plane's type cannot hold.
+    Names: display, radiance, signal, apparent_temperature, surface_temperature, surface_id, feature, range. Display
+    becomes uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and for
+    data that the plane's type cannot hold.
     """
     planes = {}
     for name, data in arrays.items():
@@ -107,6 +107,7 @@ def _stored(name: str, data: npt.NDArray[np.generic], kind: np.dtype[np.generic]
 _STANDARD: Mapping[str, tuple[type[np.generic], str, str, float | None]] = {
     "display": (np.uint8, "1", "display code, 0 black to 255 white", None),
     "radiance": (np.float64, "W m-2 sr-1", "band radiance at the sensor", None),
+    "signal": (np.float64, "W m-2 sr-1", "what the detector reports, as band radiance in whole counts", None),
     "apparent_temperature": (np.float64, "K", "temperature of the blackbody with the same band radiance", None),
     "surface_temperature": (np.float64, "K", "temperature of the surface seen, 0 where there is none", 0.0),
     "surface_id": (np.int32, "1", "row of the surface seen, -1 where there is none", -1.0),
