@@ -68,7 +68,7 @@ def test_thermal_frame_is_its_twin_within_five_millikelvin(flir: Renderer, name:
     assert np.abs(picture.planes["surface_temperature"][seen] - temperature).max() < 5e-3
     light = picture.illumination
     view = pixel_rays(VIEWS[name], SIZE)[seen]
-    twin = through_air(emitted(town(), rows, time, light, table), distance, VIEWS[name], view, light)
+    twin = through_air(emitted(town(), rows, time, light, table, view), distance, VIEWS[name], view, light)
     apparent = picture.planes["apparent_temperature"]
     assert np.abs(apparent[seen] - table.apparent_temperature(twin)).max() < 5e-3
     behind = background(VIEWS[name], pixel_rays(VIEWS[name], SIZE), light)[~seen]

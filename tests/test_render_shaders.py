@@ -11,9 +11,11 @@ from small_world import random_normals, tables
 
 from sensorsim.environment import AirPath, clear_path, single_term
 from sensorsim.gpu import constants_glsl, float_table
-from sensorsim.radiometry import FLIR_BAND, build_band_table
+from sensorsim.materials.gloss import load_gloss
+from sensorsim.radiometry import FLIR_BAND, BandTable, build_band_table
 from sensorsim.render.air import air_values
 from sensorsim.render.blocks import AIR, ILLUMINATION
+from sensorsim.render.mirror import mirror_glsl, mirror_table, rise_table
 from sensorsim.tables import LookupTable, evaluate_polynomial, surface_temperature
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 from sensorsim.thermal import quadrant_view_factors
@@ -71,27 +73,68 @@ def test_polynomials_of_any_degree_are_read_whole(ctx: moderngl.Context, powers:
     np.testing.assert_allclose(_shade(ctx, coefficients, inputs), evaluate_polynomial(blended, reflectance), atol=1e-4)
 
 
-def test_emitted_radiance_is_its_twin_within_a_millikelvin(ctx: moderngl.Context) -> None:
-    rng, table = np.random.default_rng(4), build_band_table(FLIR_BAND)
-    kelvin, emissivity, normal = rng.uniform(200.0, 400.0, COUNT), rng.uniform(0.02, 1.0, COUNT), random_normals(COUNT)
+def _emitted(ctx: moderngl.Context, table: BandTable, mirror: np.ndarray, inputs: dict[str, np.ndarray]) -> np.ndarray:
+    """Radiance of surfaces under the surroundings of `_light`, in double precision's arrays."""
     lookup = LookupTable(
         name="band_radiance", quantity="Radiance", argument="Kelvin",
         minimum=150.0, maximum=700.0, values=np.array(table.radiance),
     )  # fmt: skip
-    texture = float_table(ctx, "band_radiance_table", lookup.texels)
+    textures = {
+        "band_radiance_table": float_table(ctx, "band_radiance_table", lookup.texels),
+        "rise_table": float_table(ctx, "rise_table", rise_table()),
+        "mirror_table": float_table(ctx, "mirror_table", mirror),
+    }
     shaded = evaluate(
-        ctx, "emitted_radiance(kelvin, emissivity, normal)",
-        {"kelvin": kelvin, "emissivity": emissivity, "normal": normal},
+        ctx, "emitted_radiance(kelvin, emissivity, normal, view, gloss)", inputs,
         include=["radiance/emitted.glsl"],
-        generated={"band_radiance": lookup.glsl()},
+        generated={"band_radiance": lookup.glsl(), "mirror_size": mirror_glsl()},
         blocks={ILLUMINATION: ILLUMINATION.pack(**_light())},
-        tables={"band_radiance_table": texture},
+        tables=textures,
     )  # fmt: skip
-    texture.release()
-    sky = 0.5 * (1.0 + normal[:, 2])
-    twin = emissivity * table.radiance_at(kelvin) + (1.0 - emissivity) * (sky * 21.0 + (1.0 - sky) * 37.0)
-    miss = table.apparent_temperature(shaded.astype(np.float64)) - table.apparent_temperature(twin)
+    for texture in textures.values():
+        texture.release()
+    return shaded.astype(np.float64)
+
+
+def _seen_surfaces() -> dict[str, np.ndarray]:
+    """Random surfaces and directions from which their faces show."""
+    rng = np.random.default_rng(4)
+    normal, view = random_normals(COUNT), random_normals(COUNT, seed=22)
+    view = np.where(np.sum(view * normal, axis=1)[:, None] > 0.0, -view, view)
+    return {
+        "kelvin": rng.uniform(200.0, 400.0, COUNT),
+        "emissivity": rng.uniform(0.02, 1.0, COUNT),
+        "normal": normal,
+        "view": view,
+    }
+
+
+def test_emitted_radiance_is_its_twin_within_a_millikelvin(ctx: moderngl.Context) -> None:
+    seen, table = _seen_surfaces(), build_band_table(FLIR_BAND)
+    matt = np.column_stack([np.full(COUNT, -1.0), seen["emissivity"]])
+    shaded = _emitted(ctx, table, mirror_table(np.linspace(37.0, 12.0, 100), 37.0), {**seen, "gloss": matt})
+    sky, emissivity = 0.5 * (1.0 + seen["normal"][:, 2]), seen["emissivity"]
+    twin = emissivity * table.radiance_at(seen["kelvin"]) + (1.0 - emissivity) * (sky * 21.0 + (1.0 - sky) * 37.0)
+    miss = table.apparent_temperature(shaded) - table.apparent_temperature(twin)
     assert np.abs(miss).max() < 1e-3
+
+
+def test_glossy_radiance_is_its_twin_within_two_millikelvin(ctx: moderngl.Context) -> None:
+    """Every kind of gloss, all directions; fractions of a table's step and the mirror direction are in single."""
+    seen, table = _seen_surfaces(), build_band_table(FLIR_BAND)
+    kinds, mirror = load_gloss(), mirror_table(np.linspace(37.0, 12.0, 100), 37.0)
+    kind = np.random.default_rng(5).integers(0, len(kinds), COUNT)
+    shaded = _emitted(ctx, table, mirror, {**seen, "gloss": np.column_stack([kind, seen["emissivity"]])})
+    cosine = -np.sum(seen["view"] * seen["normal"], axis=1)
+    up = seen["view"][:, 2] + 2.0 * cosine * seen["normal"][:, 2]
+    twin = np.zeros(COUNT)
+    for row, gloss in enumerate(kinds):
+        held = kind == row
+        emissivity = gloss.emissivity(seen["emissivity"][held], cosine[held])
+        shown = np.interp(up[held], np.linspace(-1.0, 1.0, mirror.shape[1]), mirror[row])
+        twin[held] = emissivity * table.radiance_at(seen["kelvin"][held]) + (1.0 - emissivity) * shown
+    miss = table.apparent_temperature(shaded) - table.apparent_temperature(twin)
+    assert np.abs(miss).max() < 2e-3
 
 
 def test_reflected_radiance_is_its_twin(ctx: moderngl.Context) -> None:

@@ -22,6 +22,7 @@ from sensorsim.environment import (
 from sensorsim.environment.sky_glow import INDICATRIX_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_path
+from sensorsim.render.mirror import mirror_table
 from sensorsim.sensor import Sensor
 from sensorsim.tables import LookupTable
 
@@ -55,6 +56,10 @@ class Illumination:
         The sine is a view's upward component. An arc sine in the shader would cost 7 mK: drivers approximate it.
         """
         return _table("sky_radiance", "Radiance", 0.0, self.sky)
+
+    def mirror_table(self) -> FloatArray:
+        """What each kind of gloss shows, (kinds, MIRROR_ENTRIES), by the upward part of the mirror direction."""
+        return mirror_table(self.sky, self.ground_radiance)
 
     def glow_tables(self) -> tuple[LookupTable, LookupTable]:
         """Gradation of the sky's glow by the sine of the elevation, its indicatrix by the cosine from the sun."""

@@ -30,6 +30,8 @@ TEXTURE_UNITS = {
     "halo_picture": 14,
     "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
     "sky_indicatrix_table": 17,
+    "rise_table": 18,
+    "mirror_table": 19,
 }
 
 
@@ -65,7 +67,7 @@ def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[st
         "scene/surface.vert",
         "scene/surface.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-        samplers=("surface_table", "coefficient_table", "band_radiance_table"),
+        samplers=("surface_table", "coefficient_table", "band_radiance_table", "rise_table", "mirror_table"),
         generated={**generated, "constants": constants_glsl()},
         defines={"EMISSIVE": int(emissive)},
         mesh=mesh,

@@ -16,6 +16,7 @@ from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmospher
 from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
 from sensorsim.render.illumination import Illumination, dark, illuminate
+from sensorsim.render.mirror import mirror_glsl, rise_table
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.surface_table import surface_table
@@ -133,11 +134,14 @@ class Renderer:
             "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             **{f"{table.name}_table": float_table(ctx, table.name, table.texels) for table in skies},
+            "rise_table": float_table(ctx, "rise_table", rise_table()),
+            "mirror_table": float_table(ctx, "mirror_table", dark().mirror_table()),
         }
         generated = {
             "coefficients": coefficient_glsl(coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             **{table.name: table.glsl() for table in skies},
+            "mirror_size": mirror_glsl(),
         }
         buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
@@ -180,6 +184,7 @@ class Renderer:
         update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
         for table in (illumination.sky_table(), *illumination.glow_tables()):
             update_table(self._tables[f"{table.name}_table"], table.texels)
+        update_table(self._tables["mirror_table"], illumination.mirror_table())
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
                 quadrant=illumination.quadrant,

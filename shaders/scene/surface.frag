@@ -9,6 +9,9 @@
 in vec3 from_camera;
 flat in vec4 record[4];
 flat in vec4 reflectance_record;
+#if EMISSIVE
+flat in vec4 gloss_record;
+#endif
 flat in int surface_id;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
@@ -20,7 +23,7 @@ void main() {
     Kelvin temperature =
         surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
 #if EMISSIVE
-    Radiance source = emitted_radiance(temperature, record[1].w, normal);
+    Radiance source = emitted_radiance(temperature, record[1].w, normal, from_camera / range, gloss_record.xy);
 #else
     Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
 #endif
