@@ -1,22 +1,37 @@
 """One look of a renderer as a frame with everything that made it."""
 
+import hashlib
+from dataclasses import fields
 from datetime import datetime
 
 import numpy as np
 
 from sensorsim.errors import InputError
 from sensorsim.frames.frame import JSON, Frame, build_frame
+from sensorsim.frames.writer import inputs_sha256
 from sensorsim.render import Camera, Picture, Renderer
-from sensorsim.sensor import DisplaySettings
+from sensorsim.sensor import DisplaySettings, Sensor
 from sensorsim.version import __version__
 
 
 def take_frame(
-    renderer: Renderer, camera: Camera, at: datetime | str, *, display: DisplaySettings | None = None
+    renderer: Renderer,
+    camera: Camera,
+    at: datetime | str | float,
+    *,
+    display: DisplaySettings | None = None,
+    frame: int = 0,
 ) -> Frame:
-    """Frame at a local standard time (or one with an offset) of the world's image day."""
-    picture = renderer.render(camera, seconds_after_midnight(renderer, at), display=display)
-    return build_frame(picture.planes, frame_settings(renderer, picture))
+    """Frame at a local standard time (or one with an offset, or seconds after midnight) of the world's image day.
+
+    frame: its number in a sequence, which decides its noise.
+    """
+    time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
+    picture = renderer.render(camera, time_of_day, display=display, frame=frame)
+    request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
+    return build_frame(
+        picture.planes, {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
+    )
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
@@ -37,30 +52,29 @@ def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
     return seconds
 
 
-def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
-    """All inputs of a picture, as plain values."""
-    world, sensor, display = renderer.world, renderer.sensor, picture.display
-    scene = world.scene
-    bake = world.tables.settings.to_dict()
+def request_settings(
+    renderer: Renderer, camera: Camera, time_of_day: float, *, display: DisplaySettings | None, frame: int
+) -> dict[str, JSON]:
+    """All that decides a frame, as plain values: known before it is drawn."""
+    world, sensor = renderer.world, renderer.sensor
+    scene, bake = world.scene, world.tables.settings.to_dict()
     return {
         "sensorsim": __version__,
         "scene": {"name": scene.name, "level": scene.level, "files": [path.name for path in scene.files]},
         "weather": {"name": world.weather.name, "file": world.weather.file.name},
         "warnings": list(world.warnings),
         "day": world.tables.day.isoformat(),
-        "time_of_day_s": picture.time_of_day,
+        "time_of_day_s": time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
-        "sensor": {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode},
+        "world_sha256": world.inputs_sha256,
+        "sensor": _sensor_settings(sensor),
         "size": list(renderer.size),
-        "camera": _camera_settings(renderer, picture.camera),
-        "display": {
-            "polarity": display.polarity,
-            "level": display.level,
-            "span": display.span,
-            "unit": "W m-2 sr-1",
-        },
-        "atmosphere": _air_settings(renderer, picture),
+        "samples": renderer.samples,
+        "frame": frame,
+        "air": renderer.atmosphere,
+        "camera": _camera_settings(renderer, camera),
+        "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
     }
 
 
@@ -74,6 +88,25 @@ def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         "inverse_scale_height_per_m": air.inverse_scale_height.tolist(),
         "source_W_m-2_sr-1": air.source.tolist(),
     }
+
+
+def _outcome(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
+    """What was found while drawing."""
+    display = picture.display
+    window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
+    return {
+        "display": {**window, "tone": display.tone, "gamma": display.gamma},
+        "atmosphere": _air_settings(renderer, picture),
+    }
+
+
+def _sensor_settings(sensor: Sensor) -> dict[str, JSON]:
+    """Name and mode, and a hash of all numbers that describe it."""
+    parts = [repr(getattr(sensor, field.name)) for field in fields(sensor) if field.name != "band"]
+    parts += [sensor.band.name, sensor.band.wavelength.tobytes().hex(), sensor.band.response.tobytes().hex()]
+    digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    plain: dict[str, JSON] = {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode}
+    return {**plain, "sha256": digest}
 
 
 def _camera_settings(renderer: Renderer, camera: Camera) -> dict[str, JSON]:

@@ -1,7 +1,10 @@
 """A scene under its weather, with all tables baked: what any number of sensors can be pointed at."""
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, fields
 from datetime import date
+
+import numpy as np
 
 from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, place_mismatch
 from sensorsim.materials import Catalogue, load_catalogue
@@ -9,6 +12,7 @@ from sensorsim.scene import Scene
 from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
+from sensorsim.tables.cache import inputs_digest
 from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
@@ -24,6 +28,7 @@ class World:
     season: Season
     assignment: Assignment
     tables: ShadeTables
+    inputs_sha256: str  # of all that decides its frames: weather, walls, settings, code, geometry, surfaces
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
@@ -50,13 +55,8 @@ def build_world(
     )  # fmt: skip
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
-    tables = cached_tables(
-        environment,
-        assignment.wall_types,
-        ground=catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none"),
-        settings=settings,
-        progress=progress,
-    )
+    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
@@ -67,5 +67,18 @@ def build_world(
         season=season,
         assignment=assignment,
         tables=tables,
+        inputs_sha256=_digest(scene, assignment, inputs_digest(environment, assignment.wall_types, ground, settings)),
         warnings=() if mismatch is None else (mismatch,),
     )
+
+
+def _digest(scene: Scene, assignment: Assignment, tables: str) -> str:
+    """SHA-256 of the tables' inputs with the geometry and what its surfaces are made of."""
+    digest = hashlib.sha256(tables.encode())
+    for part in (scene.mesh, scene.surfaces, assignment):
+        for field in fields(part):
+            value = getattr(part, field.name)
+            if isinstance(value, np.ndarray):
+                digest.update(f"{field.name}{value.dtype}{value.shape}".encode())
+                digest.update(np.ascontiguousarray(value).tobytes())
+    return digest.hexdigest()
