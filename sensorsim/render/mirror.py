@@ -46,25 +46,26 @@ def mirror_table(sky: FloatArray, ground_radiance: float) -> FloatArray:
 
     sky (n,): radiance at elevations whose sine goes evenly from 0 to 1; below the horizon is the ground plane.
     """
-    sine = np.linspace(0.0, 1.0, sky.size)
-    return np.stack([_through_lobe(gloss.spread, sine, sky, ground_radiance) for gloss in load_gloss()])
-
-
-def _through_lobe(spread: float, sine: FloatArray, sky: FloatArray, ground_radiance: float) -> FloatArray:
-    up, weight = _lobe(spread)
-    seen = np.where(up >= 0.0, np.interp(up, sine, sky), ground_radiance)
-    return np.asarray(seen @ weight)
+    up = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)
+    around = np.where(up >= 0.0, np.interp(up, np.linspace(0.0, 1.0, sky.size), sky), ground_radiance)
+    return np.stack([_lobe(gloss.spread) @ around for gloss in load_gloss()])
 
 
 @cache
-def _lobe(spread: float) -> tuple[FloatArray, FloatArray]:
-    """Upward components (MIRROR_ENTRIES, m) of a lobe's directions around each mirror direction, and weights (m,)."""
-    middle = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)[:, None, None]
+def _lobe(spread: float) -> FloatArray:
+    """Shares (MIRROR_ENTRIES, MIRROR_ENTRIES) that a lobe around each mirror direction has in each elevation."""
     if spread == 0.0:
-        return middle.reshape(-1, 1), np.ones(1)
+        return np.eye(MIRROR_ENTRIES)
+    middle = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)[:, None, None]
     off = np.radians(min(_FARTHEST * spread, 90.0)) * (np.arange(_RINGS) + 0.5) / _RINGS
     around = np.pi * (np.arange(_SECTORS) + 0.5) / _SECTORS
     up = np.cos(off)[:, None] * middle + np.sin(off)[:, None] * np.sqrt(1.0 - middle**2) * np.cos(around)
-    weight = np.exp(-np.log(2.0) * (np.degrees(off) / spread) ** 2) * np.sin(off)
-    spread_out = np.repeat(weight, _SECTORS)
-    return up.reshape(MIRROR_ENTRIES, -1), spread_out / spread_out.sum()
+    ring = np.exp(-np.log(2.0) * (np.degrees(off) / spread) ** 2) * np.sin(off)
+    weight = np.broadcast_to(ring[:, None] / (ring.sum() * _SECTORS), up.shape)
+    place = np.clip(0.5 + 0.5 * up, 0.0, 1.0) * (MIRROR_ENTRIES - 1)
+    low = np.minimum(place.astype(np.int64), MIRROR_ENTRIES - 2)
+    row = np.broadcast_to(np.arange(MIRROR_ENTRIES)[:, None, None], up.shape)
+    share = np.zeros((MIRROR_ENTRIES, MIRROR_ENTRIES))
+    np.add.at(share, (row, low), weight * (1.0 - (place - low)))
+    np.add.at(share, (row, low + 1), weight * (place - low))
+    return share
