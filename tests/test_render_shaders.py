@@ -188,7 +188,7 @@ def _through_air(
     if view is None:
         view = np.tile([1.0, 0.0, 0.0], (len(source), 1))
     return evaluate(
-        ctx, "apparent_radiance(source, distance_, distance_ * view.z, view)",
+        ctx, "apparent_radiance(source, distance_, distance_ * view.z, mean_extinction(distance_ * view.z), view)",
         {"source": source, "distance_": distance, "view": view},
         include=["radiance/path.glsl"],
         blocks={AIR: AIR.pack(**air_values(air, camera_height, SUN))},

@@ -27,9 +27,14 @@ Ratio phase(Ratio sun_cosine) {
     return part * sqrt(part);
 }
 
+// Extinction of each term along a path that rises by so much, mean over it [m-1]; smooth enough for vertices
+vec4 mean_extinction(Metre rise) {
+    return air.extinction * mean_decay(air.inverse_scale_height * rise);
+}
+
 // rise [m]: of the surface above the camera; view: from the camera to the surface
-Radiance apparent_radiance(Radiance source, Metre range, Metre rise, Direction view) {
-    vec4 depth = air.extinction * range * mean_decay(air.inverse_scale_height * rise);
+Radiance apparent_radiance(Radiance source, Metre range, Metre rise, vec4 extinction, Direction view) {
+    vec4 depth = extinction * range;
     vec4 part = exp(-depth);
     vec4 near = air.source + air.beam_source * phase(dot(view, air.sun_direction));
     vec4 seen = near + part * (vec4(source) - near) + source_lag(depth, part) * air.source_slope * rise;

@@ -29,7 +29,7 @@ Radiance background_radiance(Direction view) {
     if (view.z >= 0.0) return sky(view);
     Metre height = max(view_frame.camera_position.z, 0.0);
     Metre range = min(height / -view.z, FARTHEST);
-    return apparent_radiance(illumination.ground_radiance, range, -height, view);
+    return apparent_radiance(illumination.ground_radiance, range, -height, mean_extinction(-height), view);
 }
 
 void main() {

@@ -7,6 +7,7 @@
 #include "radiance/reflected.glsl"
 
 in vec3 from_camera;
+in vec4 extinction;
 flat in vec4 record[4];
 flat in vec4 reflectance_record;
 #if EMISSIVE
@@ -27,7 +28,7 @@ void main() {
 #else
     Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
 #endif
-    Radiance seen = apparent_radiance(source, range, from_camera.z, from_camera / range);
+    Radiance seen = apparent_radiance(source, range, from_camera.z, extinction, from_camera / range);
     quantities = vec4(seen, temperature, range, 0.0);
     id = surface_id;
 }

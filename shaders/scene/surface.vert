@@ -1,12 +1,14 @@
 #version 330 core
 // Provides: the surface's record to its fragments, unchanged across the surface, and the position for the range.
 #include "generated/view_frame_block.glsl"
+#include "radiance/path.glsl"
 #include "scene/surface_record.glsl"
 
 in vec3 position;  // [m] east, north, up of the scene's origin
 in int surface;
 
 out vec3 from_camera;  // [m]
+out vec4 extinction;  // [m-1]
 flat out vec4 record[4];
 flat out vec4 reflectance_record;
 #if EMISSIVE
@@ -22,5 +24,6 @@ void main() {
 #endif
     surface_id = surface;
     from_camera = position - view_frame.camera_position;
+    extinction = mean_extinction(from_camera.z);
     gl_Position = view_frame.clip_from_camera * vec4(from_camera, 1.0);
 }
