@@ -130,11 +130,5 @@ CLAIMS = (
         unit="K",
         measure=BLOCK_AND_METAL,
         relations=(more("metal", than="block"),),
-        reason=REFLECTED_COLD,
-        instead=(
-            more("block", than="metal"),
-            more("metal surface", than="block surface", by=NOTICEABLE),
-            more("block emissivity", than="metal emissivity", by=0.1),
-        ),
     ),
 )
