@@ -17,10 +17,6 @@ from sensorsim.study.claims_model import NOTICEABLE, SIGNIFICANT, Claim, Numbers
 
 HOUR = 10.0
 SUNLIT = 0.2  # [-] cosine from which the sun counts as facing a wall
-REFLECTED_COLD = (
-    "The surface is the warmer one, as the report shades it. In 8-14 um a bare sheet of emissivity 0.72 also mirrors "
-    "the cold clear sky, which costs it more shade than its own warmth gives; the report leaves that out."
-)
 
 
 def _winter(evidence: Evidence) -> View:
