@@ -7,8 +7,12 @@
 #include "radiance/reflected.glsl"
 
 in vec3 from_camera;
+in vec4 extinction;
 flat in vec4 record[4];
 flat in vec4 last_record;
+#if EMISSIVE
+flat in vec4 gloss_record;
+#endif
 flat in int surface_id;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
@@ -21,10 +25,11 @@ void main() {
         surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w)
         + last_record.z;
 #if EMISSIVE
-    Radiance source = emitted_radiance(temperature, record[1].w, normal);
+    Radiance source = emitted_radiance(temperature, record[1].w, normal, from_camera / range, gloss_record.xy);
 #else
     Radiance source = reflected_radiance(last_record.x, normal, record[3]);
 #endif
-    quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
+    Radiance seen = apparent_radiance(source, range, from_camera.z, extinction, from_camera / range);
+    quantities = vec4(seen, temperature, range, 0.0);
     id = surface_id;
 }
