@@ -9,10 +9,13 @@ back as a disc of fixed size [Thomas2005]. The NumPy twin of shaders/sensor/bloc
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import convolve
 
 from sensorsim.radiometry import FloatArray
 from sensorsim.sensor.sensor import Sensor
+
+IntArray = NDArray[np.int64]
 
 STREAK_BLOCK = 16  # elements along a row that share a level
 HALO_BLOCK = 4  # elements to either side of which excess is joined
@@ -36,13 +39,10 @@ def halo_radius(sensor: Sensor, field: float, width: int) -> float:
 
 def block_mean(light: FloatArray, width: int, height: int) -> FloatArray:
     """Means of blocks; those at the right and at the top, where rows are counted from, may be smaller."""
-    rows, columns = -(-light.shape[0] // height), -(-light.shape[1] // width)
-    flipped, means = light[::-1], np.zeros((rows, columns))
-    for row in range(rows):
-        for column in range(columns):
-            part = flipped[row * height : (row + 1) * height, column * width : (column + 1) * width]
-            means[row, column] = part.mean()
-    return means[::-1]
+    rows, columns = np.arange(0, light.shape[0], height), np.arange(0, light.shape[1], width)
+    total = np.add.reduceat(np.add.reduceat(light[::-1].astype(np.float64), rows, axis=0), columns, axis=1)
+    number = np.diff(rows, append=light.shape[0])[:, None] * np.diff(columns, append=light.shape[1])
+    return np.asarray((total / number)[::-1])
 
 
 def baseline(light: FloatArray, kept: float) -> FloatArray:
@@ -63,15 +63,21 @@ def halo(light: FloatArray, full: float, share: float, radius: float) -> FloatAr
 
 def spread_blocks(blocks: FloatArray, size: tuple[int, int], width: int, height: int) -> FloatArray:
     """Values of blocks at each element (height, width), straight between their middles; rows are counted from below."""
-    x = np.clip((np.arange(size[0]) + 0.5) / width - 0.5, 0.0, blocks.shape[1] - 1.0)
-    y = np.clip((np.arange(size[1]) + 0.5) / height - 0.5, 0.0, blocks.shape[0] - 1.0)
-    flipped = blocks[::-1]
-    left, low = (
-        np.minimum(x.astype(int), max(blocks.shape[1] - 2, 0)),
-        np.minimum(y.astype(int), max(blocks.shape[0] - 2, 0)),
-    )
-    right, high = np.minimum(left + 1, blocks.shape[1] - 1), np.minimum(low + 1, blocks.shape[0] - 1)
-    across, up = x - left, (y - low)[:, None]
-    lower = flipped[low][:, left] * (1.0 - across) + flipped[low][:, right] * across
-    upper = flipped[high][:, left] * (1.0 - across) + flipped[high][:, right] * across
-    return np.asarray((lower * (1.0 - up) + upper * up)[::-1])
+    rows = blocks_by_row(blocks, size[1], height)
+    left, share = block_places(size[0], blocks.shape[1], width)
+    right = np.minimum(left + 1, blocks.shape[1] - 1)
+    return np.asarray(rows[:, left] * (1.0 - share) + rows[:, right] * share)
+
+
+def blocks_by_row(blocks: FloatArray, rows: int, height: int) -> FloatArray:
+    """Values of blocks at each of `rows` rows (rows, blocks), straight between the middles of blocks of a height."""
+    low, share = block_places(rows, blocks.shape[0], height)
+    high, flipped = np.minimum(low + 1, blocks.shape[0] - 1), blocks[::-1]
+    return np.asarray((flipped[low] * (1.0 - share[:, None]) + flipped[high] * share[:, None])[::-1])
+
+
+def block_places(count: int, blocks: int, extent: int) -> tuple[IntArray, FloatArray]:
+    """For each of `count` elements the block whose middle lies before it, and how far it is to the next one's."""
+    place = np.clip((np.arange(count) + 0.5) / extent - 0.5, 0.0, blocks - 1.0)
+    low = np.minimum(place.astype(np.int64), max(blocks - 2, 0))
+    return low, place - low
