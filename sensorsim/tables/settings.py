@@ -59,8 +59,8 @@ class BakeSettings:
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
             (
                 "lobes",
-                self.lobes != 0 and not (_is_whole(self.lobes, self.step) and _is_whole(SECONDS_PER_DAY, self.lobes)),
-                "use 0, or a multiple of the step that divides the day",
+                self.lobes != 0 and not (60.0 <= self.lobes <= 21600.0 and _is_whole(SECONDS_PER_DAY, self.lobes)),
+                "use 0, or 60 to 21600 s that divide the day",
             ),
             ("cell_size", not 0.05 <= self.cell_size <= 5.0, "use a size from 0.05 to 5"),
             ("precision", self.precision not in PRECISIONS, f"use one of {', '.join(PRECISIONS)}"),
