@@ -13,7 +13,7 @@ from sensorsim.sensor import (
     blur_kernel,
     column_places,
     display_code,
-    exposed,
+    sampled_surfaces,
     focal_plane,
     halo_radius,
     kept_per_block,
@@ -174,7 +174,7 @@ def test_picture_that_is_not_finite_is_refused(chains: list[RowChain]) -> None:
 def test_gain_goes_by_enough_pixels_and_not_by_many_more(shape: tuple[int, int]) -> None:
     picture = np.arange(shape[0] * shape[1], dtype=np.float64).reshape(shape)
     for surface in (np.ones(shape, bool), np.zeros(shape, bool)):
-        chosen = exposed(picture, surface)
+        chosen = sampled_surfaces(picture, surface)
         assert min(picture.size, ENOUGH) * 0.5 <= chosen.size <= 4.1 * ENOUGH
         assert np.isin(chosen, picture).all()
 

@@ -10,7 +10,7 @@ from sensorsim.sensor.display import (
     window_from_temperatures,
     window_limits,
 )
-from sensorsim.sensor.exposure import exposed, exposure_for
+from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places, focal_plane
 from sensorsim.sensor.intensifier import Intensifier
 from sensorsim.sensor.load import load_sensor, sensor_names
@@ -47,7 +47,6 @@ __all__ = [
     "correction_radiance",
     "deviate_table",
     "display_code",
-    "exposed",
     "exposure_for",
     "fix_window",
     "fixed_pattern",
@@ -62,6 +61,7 @@ __all__ = [
     "read_out",
     "remember",
     "renewed_share",
+    "sampled_surfaces",
     "sensitivity",
     "sensor_names",
     "stream_seed",

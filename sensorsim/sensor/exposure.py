@@ -12,7 +12,7 @@ FILLED = 0.8  # of the detector's range, that an automatic iris aims at
 ENOUGH = 20000  # pixels: the share below a quantile at 1% is then true to 0.07%
 
 
-def exposed(picture: NDArray[Any], surface: NDArray[np.bool_]) -> NDArray[Any]:
+def sampled_surfaces(picture: NDArray[Any], surface: NDArray[np.bool_]) -> NDArray[Any]:
     """Values of every n-th row and column, of surfaces where any is seen: the sky may be cold or bright.
 
     picture, surface (height, width); n is the largest that leaves ENOUGH pixels of both together.

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from sensorsim.errors import NumericsError
 from sensorsim.sensor import row_kernels
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposed, exposure_for
+from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places
-from sensorsim.sensor.memory import remember, renewed_share
+from sensorsim.sensor.memory import renewed_share
 from sensorsim.sensor.point_spread import blur_kernel
 from sensorsim.sensor.random_field import deviate_table
 from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, stream_seed
@@ -104,7 +104,7 @@ class RowChain:
         middle = slice(self.samples // 2, None, self.samples)
         step = self.samples if picture.shape != self.size[::-1] else 1
         here = picture[step // 2 :: step, step // 2 :: step]
-        return exposed(here, ~self.marked[middle, middle])
+        return sampled_surfaces(here, ~self.marked[middle, middle])
 
     def show(self, settings: DisplaySettings) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window."""
@@ -143,7 +143,7 @@ class RowChain:
         share = renewed_share(self.sensor)
         if share < 1.0:
             follows = frame == self.last_frame + 1 and self.last_frame >= 0
-            self.held = remember(self.held, self.focus, np.float32(share)) if follows else self.focus.copy()
+            self.held = self.held + np.float32(share) * (self.focus - self.held) if follows else self.focus.copy()
             self.last_frame = frame
             return self.held
         return self.focus
@@ -152,11 +152,11 @@ class RowChain:
         """The light less what each channel has settled to but for a level, with the halo of bright lights."""
         sensor, (width, height) = self.sensor, self.size
         if sensor.scan.ac_coupling > 0.0:
-            settled = baseline(light, kept_per_block(sensor, self.field, self.size))
+            settled = baseline(light.astype(np.float64), kept_per_block(sensor, self.field, self.size))
             light = self._with_blocks(light, settled, STREAK_BLOCK, level, -1.0)
         if sensor.intensifier is not None:
             radius = halo_radius(sensor, self.field, width)
-            around = halo(light, look.full, sensor.intensifier.halo_share, radius)
+            around = halo(light.astype(np.float64), look.full, sensor.intensifier.halo_share, radius)
             light = self._with_blocks(light, blocks_by_row(around, height, HALO_BLOCK), HALO_BLOCK, 0.0, 1.0)
         return light
 
@@ -165,10 +165,10 @@ class RowChain:
         left, share = block_places(self.size[0], rows.shape[1], width)
         values, part = rows.astype(np.float32), share.astype(np.float32)
         added = np.zeros(light.shape, np.float32)
-        numbers = np.float32(constant), np.float32(factor)
+        numbers = np.array([constant, factor], np.float32)
         self._each(
             self.size[1],
-            lambda first, last: row_kernels.add_blocks(light, values, left, part, *numbers, first, last, added),
+            lambda first, last: row_kernels.add_blocks(light, values, left, part, numbers, first, last, added),
         )
         return added
 

@@ -59,11 +59,12 @@ def blur(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def add_blocks(
-    light: Array, rows: Array, left: Array, share: Array, constant: float, factor: float, first: int, last: int,
+    light: Array, rows: Array, left: Array, share: Array, numbers: Array, first: int, last: int,
     out: Array,
 ) -> None:  # fmt: skip
-    """`light` + constant + factor times blocks (height, blocks) that lie straight between `left` and its neighbour."""
+    """`light` + a constant + a factor times blocks (height, blocks), straight between `left` and its neighbour."""
     end = rows.shape[1] - 1
+    constant, factor = numbers
     for y in range(first, last):
         source, blocks, target = light[y], rows[y], out[y]
         for x in range(source.size):

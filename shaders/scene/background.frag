@@ -2,6 +2,7 @@
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
 // plane of [Report1978] section 3.1.3 through its air path.
 // EMISSIVE 1: thermal bands, 0: reflective bands, whose sky glows around the sun [ISO15469].
+// MARKED 1: radiance alone, its sign set: no surface is seen here.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
 #include "generated/illumination_block.glsl"
@@ -14,8 +15,12 @@ const Metre FARTHEST = 1e9;  // along the horizon; all air is opaque before
 
 in vec2 picture_position;
 
+#if MARKED
+out float radiance;
+#else
 layout(location = 0) out vec4 quantities;
 layout(location = 1) out int id;
+#endif
 
 Radiance sky(Direction view) {
 #if EMISSIVE
@@ -35,6 +40,10 @@ Radiance background_radiance(Direction view) {
 void main() {
     vec3 view = view_frame.view_corner
               + picture_position.x * view_frame.view_right + picture_position.y * view_frame.view_up;
+#if MARKED
+    radiance = -background_radiance(normalize(view));
+#else
     quantities = vec4(background_radiance(normalize(view)), 0.0, 0.0, 0.0);
     id = -1;
+#endif
 }
