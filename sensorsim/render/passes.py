@@ -86,18 +86,18 @@ def surface_pass(
 
 
 def background_pass(
-    ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, marked: bool = False
+    ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, marked: bool = False, horizon: int = 0
 ) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
     glow = () if emissive else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
-        "common/screen.vert",
+        "scene/background.vert",
         "scene/background.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("sky_radiance_table", *glow),
         generated=generated,
-        defines={"EMISSIVE": int(emissive), "MARKED": int(marked)},
+        defines={"EMISSIVE": int(emissive), "MARKED": int(marked), "HORIZON": horizon},
     )
 
 

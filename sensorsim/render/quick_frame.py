@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from sensorsim.gpu import constants_glsl, mesh_buffers, render_target
 from sensorsim.render.blocks import AIR, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.camera import Camera
 from sensorsim.render.mirror import gloss_records
 from sensorsim.render.passes import TEXTURE_UNITS, Pass, background_pass, screen_pass
 from sensorsim.render.surface_table import SURFACES_PER_ROW
@@ -46,7 +47,9 @@ class QuickFrame:
             ctx, "scene/settled.frag", (*MIRRORING, "coefficient_table", *(("lobe_table",) if lobes else ())),
             {"EMISSIVE": int(emissive), "LOBES": int(lobes)}, blocks=(ILLUMINATION,), generated=texts,
         )  # fmt: skip
-        self.background = background_pass(ctx, generated, emissive=emissive, marked=True)
+        self.backgrounds = [
+            background_pass(ctx, generated, emissive=emissive, marked=True, horizon=horizon) for horizon in range(3)
+        ]
         triangles, self.matt = _drawing_order(world, emissive=emissive)
         mesh = world.scene.mesh
         buffers = mesh_buffers(ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, triangles)
@@ -69,7 +72,7 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
-    def draw(self) -> NDArray[np.float32]:
+    def draw(self, camera: Camera) -> NDArray[np.float32]:
         """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen."""
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
@@ -79,12 +82,31 @@ class QuickFrame:
         for surfaces, first, last in zip(self.passes, (0, self.matt), (self.matt, self.triangles), strict=False):
             if last > first:
                 surfaces.vertices.render(first=3 * first, vertices=3 * (last - first))
-        self.ctx.depth_func = "<="
         self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.background.draw()
+        self.ctx.depth_func = "<="
+        low, high = horizon_rows(camera, self.target.size)
+        for horizon, rows in ((2, (0, low)), (0, (low, high)), (1, (high, self.target.size[1]))):
+            if rows[1] > rows[0]:
+                self.target.framebuffer.scissor = (0, rows[0], self.target.size[0], rows[1] - rows[0])
+                self.backgrounds[horizon].draw()
+        self.target.framebuffer.scissor = (0, 0, *self.target.size)
         self.ctx.depth_func = "<"
         self.target.texture("radiance").read_into(self.stored)
         return self.stored
+
+
+def horizon_rows(camera: Camera, size: tuple[int, int]) -> tuple[int, int]:
+    """Rows, counted from the lowest, below which every pixel looks below the horizon, and from which on all above it.
+
+    Of a camera that is upside down the sky is below: then no row is told apart.
+    """
+    corner, right, up = camera.view_rays(size)
+    if up[2] <= 0.0:
+        return 0, size[1]
+    ends = corner[2] + np.array([0.0, right[2]])
+    crossed = -ends / up[2] * size[1]  # row edges where the picture's sides meet the horizon
+    low, high = math.floor(min(crossed)) - 1, math.ceil(max(crossed)) + 1  # a row to spare for rounding
+    return min(max(low, 0), size[1]), min(max(high, 0), size[1])
 
 
 def _drawing_order(world: World, *, emissive: bool) -> tuple[NDArray[np.int32], int]:

@@ -195,7 +195,7 @@ class Renderer:
             self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
         self._quick.settle(self._moment.number)
         field = float(np.radians(camera.horizontal_field_of_view))
-        signal = self._rows.run(self._quick.draw(), field, frame)
+        signal = self._rows.run(self._quick.draw(camera), field, frame)
         settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
         return {"display": self._rows.show(settings)}, settings
 

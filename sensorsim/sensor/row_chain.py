@@ -63,6 +63,7 @@ class RowChain:
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
         if sensor.detector is not None:
+            self.look, self.corrected_at = sensitivity(sensor), correction_radiance(sensor)
             self.pattern = np.ascontiguousarray(np.moveaxis(fixed_pattern(sensor, size)[..., :3], 2, 0), np.float32)
             self.deviates = deviate_table().astype(np.float32)
 
@@ -93,8 +94,7 @@ class RowChain:
             ),
         )
         seen = self.seen(self.light)
-        look = sensitivity(self.sensor)
-        look = look.stopped(exposure_for(look, seen))  # an iris
+        look = self.look.stopped(exposure_for(self.look, seen))  # an iris
         light = self._spilled(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)))
         self._report(light, look, frame)
         return self.signal
@@ -152,11 +152,11 @@ class RowChain:
         """The light less what each channel has settled to but for a level, with the halo of bright lights."""
         sensor, (width, height) = self.sensor, self.size
         if sensor.scan.ac_coupling > 0.0:
-            settled = baseline(light.astype(np.float64), kept_per_block(sensor, self.field, self.size))
+            settled = baseline(light, kept_per_block(sensor, self.field, self.size))
             light = self._with_blocks(light, settled, STREAK_BLOCK, level, -1.0)
         if sensor.intensifier is not None:
             radius = halo_radius(sensor, self.field, width)
-            around = halo(light.astype(np.float64), look.full, sensor.intensifier.halo_share, radius)
+            around = halo(light, look.full, sensor.intensifier.halo_share, radius)
             light = self._with_blocks(light, blocks_by_row(around, height, HALO_BLOCK), HALO_BLOCK, 0.0, 1.0)
         return light
 
@@ -175,7 +175,7 @@ class RowChain:
     def _report(self, light: Single, look: Sensitivity, frame: int) -> None:
         """Noise and counts."""
         sensor = self.sensor
-        numbers = [look.constant, look.shot, look.step, round(look.full / look.step), correction_radiance(sensor)]
+        numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
         packed, noise = np.array(numbers, np.float32), frame_noise(sensor, self.size, frame)
         row, line, seed = noise.row.astype(np.float32), noise.line.astype(np.float32), stream_seed(sensor, "tvh")
         self._each(

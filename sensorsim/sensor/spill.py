@@ -7,6 +7,7 @@ back as a disc of fixed size [Thomas2005]. The NumPy twin of shaders/sensor/bloc
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,23 +38,31 @@ def halo_radius(sensor: Sensor, field: float, width: int) -> float:
     return max(1.0, sensor.intensifier.halo_radius * width / (field * HALO_BLOCK))
 
 
-def block_mean(light: FloatArray, width: int, height: int) -> FloatArray:
+def block_mean(light: NDArray[Any], width: int, height: int) -> FloatArray:
     """Means of blocks; those at the right and at the top, where rows are counted from, may be smaller."""
-    rows, columns = np.arange(0, light.shape[0], height), np.arange(0, light.shape[1], width)
-    total = np.add.reduceat(np.add.reduceat(light[::-1].astype(np.float64), rows, axis=0), columns, axis=1)
-    number = np.diff(rows, append=light.shape[0])[:, None] * np.diff(columns, append=light.shape[1])
-    return np.asarray((total / number)[::-1])
+    total = _sums(_sums(light[::-1].T, height).T, width)
+    number = [_sums(np.ones((1, count)), extent)[0] for count, extent in zip(light.shape, (height, width), strict=True)]
+    return np.asarray((total / np.outer(*number))[::-1])
 
 
-def baseline(light: FloatArray, kept: float) -> FloatArray:
+def _sums(values: NDArray[Any], extent: int) -> NDArray[Any]:
+    """Sums of `extent` neighbours along the rows, of what is left at their ends."""
+    if extent == 1:
+        return values
+    rows, columns = values.shape
+    padded = np.pad(values, ((0, 0), (0, -columns % extent)))
+    return np.asarray(padded.reshape(rows, -1, extent).sum(axis=2, dtype=np.float64))
+
+
+def baseline(light: NDArray[Any], kept: float) -> FloatArray:
     """Level (height, blocks) [W m-2 sr-1] that channels have settled to."""
     blocks = block_mean(light, STREAK_BLOCK, 1)
-    count = blocks.shape[1]
-    weight = kept ** np.arange(count)
-    return np.asarray(sum(w * np.roll(blocks, back, axis=1) for back, w in enumerate(weight)) / weight.sum())
+    place = np.arange(blocks.shape[1])
+    weight = kept ** ((place[None, :] - place[:, None]) % place.size)  # of a block in what is left at another
+    return np.asarray(blocks @ (weight / weight[0].sum()))
 
 
-def halo(light: FloatArray, full: float, share: float, radius: float) -> FloatArray:
+def halo(light: NDArray[Any], full: float, share: float, radius: float) -> FloatArray:
     """Halo (blocks, blocks) [W m-2 sr-1] of what lies above `full`, over a disc of `radius` blocks."""
     excess = block_mean(np.maximum(light - full, 0.0), HALO_BLOCK, HALO_BLOCK)
     line = np.arange(-int(radius), int(radius) + 1)

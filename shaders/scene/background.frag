@@ -2,6 +2,7 @@
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
 // plane of [Report1978] section 3.1.3 through its air path.
 // EMISSIVE 1: thermal bands, 0: reflective bands, whose sky glows around the sun [ISO15469].
+// HORIZON 1: of pixels that all look above it, 2: below it, 0: of any.
 // MARKED 1: radiance alone, its sign set: no surface is seen here.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
@@ -14,6 +15,7 @@
 const Metre FARTHEST = 1e9;  // along the horizon; all air is opaque before
 
 in vec2 picture_position;
+flat in vec4 extinction;
 
 #if MARKED
 out float radiance;
@@ -31,10 +33,16 @@ Radiance sky(Direction view) {
 }
 
 Radiance background_radiance(Direction view) {
+#if HORIZON == 1
+    return sky(view);
+#else
+#if HORIZON == 0
     if (view.z >= 0.0) return sky(view);
+#endif
     Metre height = max(view_frame.camera_position.z, 0.0);
     Metre range = min(height / -view.z, FARTHEST);
-    return apparent_radiance(illumination.ground_radiance, range, -height, mean_extinction(-height), view);
+    return apparent_radiance(illumination.ground_radiance, range, -height, extinction, view);
+#endif
 }
 
 void main() {
