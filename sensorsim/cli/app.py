@@ -9,6 +9,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.study_accuracy import accuracy
 from sensorsim.cli.wall import wall
 from sensorsim.errors import InputError, SensorsimError
 
@@ -21,6 +22,9 @@ app = typer.Typer(
 )
 for command in (render, gallery, scene, wall, info):
     app.command()(command)
+study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
+study.command("accuracy")(accuracy)
+app.add_typer(study, name="study")
 
 
 def main() -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from datetime import date
 
 from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
-from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
@@ -27,6 +27,11 @@ class World:
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
+def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
+    """The plane that walls see: loam, or snow where it lies."""
+    return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+
+
 def build_world(
     scene: Scene,
     weather: Weather,
@@ -47,7 +52,7 @@ def build_world(
     tables = cached_tables(
         environment,
         assignment.wall_types,
-        ground=catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none"),
+        ground=ground_plane(catalogue, season),
         settings=settings,
         progress=progress,
     )

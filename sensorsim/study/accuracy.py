@@ -1,0 +1,172 @@
+"""`study accuracy`: what each setting of the baker costs and how far its tables miss the full solve."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import date
+
+import numpy as np
+
+from sensorsim.environment import Weather, build_environment
+from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.render import build_world
+from sensorsim.render.world import ground_plane
+from sensorsim.scene import Scene
+from sensorsim.sensor import load_sensor
+from sensorsim.study.accuracy_images import ImageScore, compare, look, true_world
+from sensorsim.study.accuracy_measure import Score, StudyDay, fitted, score_trial, solve_day, timed_bake
+from sensorsim.study.accuracy_surfaces import catalogue_sample, scene_sample
+from sensorsim.study.accuracy_trials import BASELINE, Trial, plan_trials
+from sensorsim.tables import ShadeTables, preset
+from sensorsim.tables.full_solve import SurfaceSet
+from sensorsim.tables.orientations import FloatArray
+from sensorsim.thermal import season_of
+
+MOST_SURFACES = 400  # of a scene that are measured on a day; of more, as many are drawn
+EACH = 8  # surfaces of each of the catalogue's wall types
+AZIMUTHS = np.arange(73) * 5.0  # [deg] of the error map
+
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ErrorMap:
+    """Error of the worst wall type's fit as a vertical wall, by time and azimuth."""
+
+    name: str  # of the preset
+    wall: str
+    day: date
+    error: FloatArray  # (t, 73) fit less full solve [K] at TIMES and AZIMUTHS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Accuracy:
+    """All that the study found."""
+
+    title: str  # what was measured
+    sampled: str  # how many surfaces of how many
+    scores: tuple[Score, ...]
+    frames: Mapping[str, float]  # median time of a frame by preset [ms]; empty for a catalogue
+    images: tuple[ImageScore, ...]
+    map: ErrorMap
+
+    @property
+    def candidates(self) -> list[Score]:
+        """What can be recommended: presets and combinations."""
+        return [score for score in self.scores if score.trial.group != "factor"]
+
+
+def study_accuracy(
+    days: Sequence[StudyDay],
+    *,
+    title: str,
+    presets: Iterable[str] | None = None,
+    factors: Iterable[str] | None = None,
+    backend: str = "auto",
+    progress: Progress | None = None,
+) -> Accuracy:
+    """Measure presets, factors and combinations over the days, all where None; see `plan_trials`."""
+    trials = plan_trials(presets, factors)
+    tell = _silent if progress is None else progress
+    skies = dict.fromkeys((trial.sky, trial.settings.convection) for trial in trials)
+    truth = {}
+    for sky, convection in skies:
+        tell(f"full solve, {sky} sky", 0, len(trials))
+        truth[sky, convection] = {day.day: solve_day(day, day.sample.surfaces, sky, convection) for day in days}
+    timed_bake(days[0], replace(preset("report"), slice_interval=86400.0))  # so that no trial pays for compiling
+    scores, frames, images = [], {}, []
+    for done, trial in enumerate(trials):
+        tell(trial.name, done, len(trials))
+        own = truth[trial.sky, trial.settings.convection]
+        score, tables = score_trial(trial, days, own)
+        scores.append(score)
+        if trial.group == "preset":
+            spent, seen = _look(trial, days, tables, own, backend)
+            frames.update({trial.name: spent} if seen else {})
+            images += seen
+    tell("error map", len(trials), len(trials))
+    return Accuracy(
+        title=title,
+        sampled=_sampled(days),
+        scores=tuple(scores),
+        frames=frames,
+        images=tuple(images),
+        map=_map(scores, days),
+    )
+
+
+def scene_days(
+    scene: Scene, moments: Sequence[tuple[Weather, date]], *, limit: int = MOST_SURFACES,
+    progress: Progress | None = None,
+) -> list[StudyDay]:  # fmt: skip
+    """A scene's own surfaces on image days under their weather."""
+    catalogue, days = load_catalogue(), []
+    for weather, day in moments:
+        world = build_world(scene, weather, image_day=day, settings=preset("report"), progress=progress)
+        days.append(
+            StudyDay(
+                day=day,
+                weather=weather,
+                ground=ground_plane(catalogue, world.season),
+                sample=scene_sample(world.scene.surfaces.normal, world.assignment, limit),
+                world=world,
+            )
+        )
+    return days
+
+
+def catalogue_days(
+    catalogue: Catalogue, moments: Sequence[tuple[Weather, date]], *, each: int = EACH
+) -> list[StudyDay]:
+    """All materials of the catalogue, each as `each` random surfaces, on image days under their weather."""
+    days = []
+    for weather, day in moments:
+        season = season_of(build_environment(weather, image_day=day))
+        sample = catalogue_sample(catalogue, season, each)
+        ground = ground_plane(catalogue, season)
+        days.append(StudyDay(day=day, weather=weather, ground=ground, sample=sample, world=None))
+    return days
+
+
+def _look(
+    trial: Trial, days: Sequence[StudyDay], tables: Mapping[date, ShadeTables], truth: Mapping[date, FloatArray],
+    backend: str,
+) -> tuple[float, list[ImageScore]]:  # fmt: skip
+    """Median time of the preset's frames [ms] and its pictures' errors on all days that have a world."""
+    sensor, spent, scores = load_sensor("flir"), [], []
+    for day in days:
+        if day.world is None:
+            continue
+        pictures, milliseconds = look(replace(day.world, tables=tables[day.day]), sensor, backend=backend)
+        exact, _ = look(true_world(day.world, day, truth[day.day]), sensor, backend=backend)
+        spent.append(milliseconds)
+        scores += compare(trial.name, day, pictures, exact)
+    return float(np.median(spent)) if spent else 0.0, scores
+
+
+def _map(scores: Sequence[Score], days: Sequence[StudyDay]) -> ErrorMap:
+    """Of the baseline where it was measured, else of the first setting."""
+    score = next((each for each in scores if each.trial.name == BASELINE), scores[0])
+    day = next(each for each in days if each.day == score.worst.day)
+    worst, azimuth = score.worst.row, np.radians(AZIMUTHS)
+    surfaces = SurfaceSet(
+        wall_types=day.sample.surfaces.wall_types,
+        wall_type=np.full(azimuth.size, day.sample.surfaces.wall_type[worst]),
+        normal=np.column_stack([np.sin(azimuth), np.cos(azimuth), np.zeros(azimuth.size)]),
+        reflectance=np.full(azimuth.size, day.sample.surfaces.reflectance[worst]),
+    )
+    settings = score.trial.settings
+    tables, _, _ = timed_bake(day, settings)
+    error = fitted(tables, surfaces) - solve_day(day, surfaces, score.trial.sky, settings.convection)
+    return ErrorMap(name=score.trial.name, wall=score.worst.wall, day=day.day, error=error)
+
+
+def _sampled(days: Sequence[StudyDay]) -> str:
+    measured = [day.sample.surfaces.reflectance.size for day in days]
+    whole = [day.sample.whole for day in days]
+    if measured == whole:
+        return f"{' + '.join(map(str, measured))} distinct surfaces of {len(days)} day(s), all there are"
+    return f"{sum(measured)} surfaces of {len(days)} day(s), drawn from {sum(whole)} distinct ones"
+
+
+def _silent(name: str, done: int, total: int) -> None:
+    """Progress that nobody listens to."""
