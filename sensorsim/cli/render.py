@@ -69,10 +69,11 @@ def render(
         )
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
+    wanted = [name for name in planes.split(",") if name]
     with Renderer(world, device, size=pixels, backend=backend) as renderer:
-        frame = take_frame(renderer, view, moment, display=display)
+        frame = take_frame(renderer, view, moment, display=display, fit_error="fit_error" in wanted)
     make_folder(out.parent)
-    files = write_frame(frame, out, planes=[name for name in planes.split(",") if name], plane_format=plane_format)
+    files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)
 
 

@@ -5,18 +5,33 @@ from datetime import datetime
 import numpy as np
 
 from sensorsim.errors import InputError
+from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
 from sensorsim.frames.frame import JSON, Frame, build_frame
 from sensorsim.render import Camera, Picture, Renderer
 from sensorsim.sensor import DisplaySettings
+from sensorsim.tables.full_solve import FINE_STEP
 from sensorsim.version import __version__
 
 
 def take_frame(
-    renderer: Renderer, camera: Camera, at: datetime | str, *, display: DisplaySettings | None = None
-) -> Frame:
-    """Frame at a local standard time (or one with an offset) of the world's image day."""
+    renderer: Renderer, camera: Camera, at: datetime | str, *, display: DisplaySettings | None = None,
+    fit_error: bool = False,
+) -> Frame:  # fmt: skip
+    """Frame at a local standard time (or one with an offset) of the world's image day.
+
+    With `fit_error` it has a plane of that name, for which all surfaces are solved in full: that takes seconds.
+    """
     picture = renderer.render(camera, seconds_after_midnight(renderer, at), display=display)
-    return build_frame(picture.planes, frame_settings(renderer, picture))
+    planes, settings = dict(picture.planes), frame_settings(renderer, picture)
+    if fit_error:
+        error = surface_fit_error(renderer.world, picture.time_of_day)
+        planes["fit_error"] = fit_error_plane(error, planes["surface_id"])
+        settings["fit_error"] = {
+            "of": "tables less full solve at the time of the frame, without sign",
+            "full_solve_step_s": FINE_STEP,
+            "largest_of_all_surfaces_K": float(error.max()),
+        }
+    return build_frame(planes, settings)
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:

@@ -22,7 +22,6 @@ from sensorsim.tables.orientations import FloatArray
 from sensorsim.thermal import season_of
 
 MOST_SURFACES = 400  # of a scene that are measured on a day; of more, as many are drawn
-EACH = 8  # surfaces of each of the catalogue's wall types
 AZIMUTHS = np.arange(73) * 5.0  # [deg] of the error map
 
 Progress = Callable[[str, int, int], None]
@@ -114,14 +113,12 @@ def scene_days(
     return days
 
 
-def catalogue_days(
-    catalogue: Catalogue, moments: Sequence[tuple[Weather, date]], *, each: int = EACH
-) -> list[StudyDay]:
-    """All materials of the catalogue, each as `each` random surfaces, on image days under their weather."""
+def catalogue_days(catalogue: Catalogue, moments: Sequence[tuple[Weather, date]]) -> list[StudyDay]:
+    """All materials of the catalogue as random surfaces on image days under their weather."""
     days = []
     for weather, day in moments:
         season = season_of(build_environment(weather, image_day=day))
-        sample = catalogue_sample(catalogue, season, each)
+        sample = catalogue_sample(catalogue, season)
         ground = ground_plane(catalogue, season)
         days.append(StudyDay(day=day, weather=weather, ground=ground, sample=sample, world=None))
     return days

@@ -18,15 +18,13 @@ from sensorsim.render import World
 from sensorsim.study.accuracy_surfaces import Sample, facing
 from sensorsim.study.accuracy_trials import Trial
 from sensorsim.tables import BakeSettings, ShadeTables, bake_tables, surface_temperature
-from sensorsim.tables.full_solve import SurfaceSet, solve_surfaces
+from sensorsim.tables.full_solve import FINE_STEP, SurfaceSet, fine_environment, solve_surfaces
 from sensorsim.tables.orientations import FloatArray
 
 Progress = Callable[[str, int, int], None]
 
 SPACING = 300.0  # [s] between the times of day that are looked at
 TIMES = np.linspace(0.0, SECONDS_PER_DAY, round(SECONDS_PER_DAY / SPACING) + 1)
-FINE_STEP = 60.0  # [s] of the full solve
-LONGEST_LEAD_IN = 4.0  # [days] of the full solve, where the weather goes back as far
 BINS = np.geomspace(1e-4, 10.0, 51)  # [K] of the histograms; what lies beyond goes to the first and the last bin
 MEBIBYTE = 2.0**20
 
@@ -77,19 +75,10 @@ Truth = Mapping[date, FloatArray]  # (t, m) [K] at TIMES, by day
 
 
 def solve_day(day: StudyDay, surfaces: SurfaceSet, sky: str, convection: str) -> FloatArray:
-    """Temperatures (t, m) [K] of surfaces at TIMES, by the full solve in steps of FINE_STEP."""
-    environment = build_environment(
-        day.weather, image_day=day.day, lead_in_days=longest_lead_in(day.weather, day.day), step=FINE_STEP
-    )
+    """Temperatures (t, m) [K] of surfaces at TIMES, by the full solve."""
+    environment = fine_environment(day.weather, day.day)
     record = environment.image_window.start + np.arange(TIMES.size) * round(SPACING / FINE_STEP)
     return solve_surfaces(environment, surfaces, ground=day.ground, record=record, sky=sky, convection=convection)
-
-
-def longest_lead_in(weather: Weather, day: date) -> float:
-    """Whole days before the image day that the weather has, LONGEST_LEAD_IN at most [days]."""
-    if weather.typical_year:
-        return LONGEST_LEAD_IN
-    return float(min((day - weather.start.date()).days - (weather.start.hour > 0), LONGEST_LEAD_IN))
 
 
 def timed_bake(day: StudyDay, settings: BakeSettings) -> tuple[ShadeTables, float, float]:

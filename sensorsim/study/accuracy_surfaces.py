@@ -7,11 +7,12 @@ import numpy as np
 from sensorsim.materials import Catalogue, WallType
 from sensorsim.materials.material import OUTDOOR_GROUPS
 from sensorsim.tables.assign import Assignment
-from sensorsim.tables.full_solve import SurfaceSet
+from sensorsim.tables.full_solve import SurfaceSet, distinct_surfaces
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal import Season
 
 SEED = 1978
+NORMALS, REFLECTANCES = 16, 3  # of each of the catalogue's wall types
 POINTS = (
     *("N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE"),
     *("S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"),
@@ -29,35 +30,34 @@ class Sample:
 
 def scene_sample(normal: FloatArray, assignment: Assignment, limit: int) -> Sample:
     """Distinct surfaces of a scene with normals (s, 3), `limit` of them drawn at random where there are more."""
-    key = np.column_stack([np.round(normal, 6), assignment.wall_type, np.round(assignment.reflectance, 6)])
-    _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    drawn = np.arange(first.size)
-    if first.size > limit:
-        drawn = np.sort(np.random.default_rng(SEED).choice(first.size, limit, replace=False))
-    place = np.full(first.size, -1)
+    found = distinct_surfaces(normal, assignment)
+    whole = found.surfaces.reflectance.size
+    drawn = np.arange(whole)
+    if whole > limit:
+        drawn = np.sort(np.random.default_rng(SEED).choice(whole, limit, replace=False))
+    place = np.full(whole, -1)
     place[drawn] = np.arange(drawn.size)
-    rows = first[drawn]
     surfaces = SurfaceSet(
         wall_types=assignment.wall_types,
-        wall_type=assignment.wall_type[rows],
-        normal=normal[rows],
-        reflectance=assignment.reflectance[rows],
+        wall_type=found.surfaces.wall_type[drawn],
+        normal=found.surfaces.normal[drawn],
+        reflectance=found.surfaces.reflectance[drawn],
     )
-    return Sample(surfaces=surfaces, whole=first.size, row_of=place[inverse.ravel()])
+    return Sample(surfaces=surfaces, whole=whole, row_of=place[found.row_of])
 
 
-def catalogue_sample(catalogue: Catalogue, season: Season, each: int) -> Sample:
-    """Every material, buildings heated, as `each` surfaces of random normal and reflectance."""
+def catalogue_sample(catalogue: Catalogue, season: Season) -> Sample:
+    """Every material, buildings heated, at NORMALS random normals for each of REFLECTANCES random reflectances."""
     walls = tuple(_wall_type(catalogue, code, season) for code in catalogue.materials)
-    random = np.random.default_rng(SEED)
-    normal = random.normal(size=(len(walls) * each, 3))
+    random, count = np.random.default_rng(SEED), len(walls) * REFLECTANCES * NORMALS
+    normal = random.normal(size=(count, 3))
     surfaces = SurfaceSet(
         wall_types=walls,
-        wall_type=np.repeat(np.arange(len(walls)), each),
+        wall_type=np.repeat(np.arange(len(walls)), REFLECTANCES * NORMALS),
         normal=normal / np.linalg.norm(normal, axis=1, keepdims=True),
-        reflectance=random.uniform(0.0, 1.0, len(walls) * each),
+        reflectance=np.repeat(random.uniform(0.0, 1.0, len(walls) * REFLECTANCES), NORMALS),
     )
-    return Sample(surfaces=surfaces, whole=len(walls) * each, row_of=np.zeros(0, dtype=np.int64))
+    return Sample(surfaces=surfaces, whole=count, row_of=np.zeros(0, dtype=np.int64))
 
 
 def facing(normal: FloatArray) -> str:

@@ -6,17 +6,22 @@ What a table's fit is measured against: nothing is interpolated between orientat
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from datetime import date, time
 
 import numpy as np
 
-from sensorsim.environment import Environment
+from sensorsim.environment import Environment, Weather, build_environment
 from sensorsim.materials import WallType, part_reflectance
+from sensorsim.tables.assign import Assignment
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
 from sensorsim.thermal.paths import march_paths
+
+FINE_STEP = 60.0  # [s]
+LONGEST_LEAD_IN = 4.0  # [days]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -27,6 +32,34 @@ class SurfaceSet:
     wall_type: IntArray  # (m,) row in wall_types
     normal: FloatArray  # (m, 3) unit
     reflectance: FloatArray  # (m,) solar [-]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Distinct:
+    """The different surfaces of a scene."""
+
+    surfaces: SurfaceSet
+    row_of: IntArray  # (s,) row of every surface of the scene among them
+
+
+def distinct_surfaces(normal: FloatArray, assignment: Assignment) -> Distinct:
+    """Surfaces (s, 3) that differ in normal, wall type or reflectance, each once."""
+    key = np.column_stack([np.round(normal, 6), assignment.wall_type, np.round(assignment.reflectance, 6)])
+    _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    surfaces = SurfaceSet(
+        wall_types=assignment.wall_types,
+        wall_type=assignment.wall_type[first],
+        normal=normal[first],
+        reflectance=assignment.reflectance[first],
+    )
+    return Distinct(surfaces=surfaces, row_of=inverse.ravel())
+
+
+def fine_environment(weather: Weather, day: date) -> Environment:
+    """Environment of the full solve: steps of FINE_STEP after LONGEST_LEAD_IN, less where the weather begins later."""
+    before = (day - weather.start.date()).days - (weather.start.time() != time())
+    lead_in = LONGEST_LEAD_IN if weather.typical_year else min(before, LONGEST_LEAD_IN)
+    return build_environment(weather, image_day=day, lead_in_days=lead_in, step=FINE_STEP)
 
 
 def solve_surfaces(
