@@ -1,7 +1,7 @@
 """Solve each wall type's history ahead and fit it: environment and wall types in, tables out."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -11,14 +11,12 @@ from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
-from sensorsim.tables.mixture import mix_coefficients
+from sensorsim.tables.histories import solve_histories
+from sensorsim.tables.mixture import mix_temperatures, part_reflectances
 from sensorsim.tables.orientations import FloatArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
-from sensorsim.thermal.heat_balance import Exposure, expose
-from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
-from sensorsim.thermal.paths import march_paths
+from sensorsim.thermal.heat_balance import expose
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -42,18 +40,21 @@ def bake_tables(
     exposure = expose(environment, orientations.normal, soil, sky=settings.sky)
     record = _slices(environment, settings)
 
+    reflectances = np.asarray(settings.reflectances, dtype=np.float64)
+
     def solve(wall: WallType) -> FloatArray:
-        return _solve_wall(environment, exposure, wall, settings, record)
+        return solve_histories(environment, exposure, wall, reflectances, record, convection=settings.convection)
 
     plain = list(dict.fromkeys(part for wall in wall_types for part in _plain_walls(wall)))
     solved: dict[WallType, FloatArray] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        for wall, coefficients in zip(plain, pool.map(solve, plain), strict=True):
-            solved[wall] = coefficients
+        for wall, temperature in zip(plain, pool.map(solve, plain), strict=True):
+            solved[wall] = temperature
             if progress is not None:
                 progress(wall.name, len(solved), len(plain))
-    reflectances = np.asarray(settings.reflectances, dtype=np.float64)
-    rows = [mix_coefficients(wall, solved, reflectances) if wall.parts else solved[wall] for wall in wall_types]
+    rows = [
+        fit_polynomials(_temperature(wall, solved, reflectances), reflectances, settings.degree) for wall in wall_types
+    ]
     return ShadeTables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
@@ -70,6 +71,22 @@ def _plain_walls(wall: WallType) -> tuple[WallType, ...]:
     return tuple(part.wall for part in wall.parts) or (wall,)
 
 
+def _temperature(wall: WallType, solved: Mapping[WallType, FloatArray], reflectances: FloatArray) -> FloatArray:
+    """Temperature (t, o, r) [K] of any wall type at the reflectances (r,) from those of its plain ones there."""
+    if not wall.parts:
+        return solved[wall]
+    own = part_reflectances(wall, reflectances)
+    return mix_temperatures(
+        wall, [_at(solved[part.wall], reflectances, row) for part, row in zip(wall.parts, own, strict=True)]
+    )
+
+
+def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) -> FloatArray:
+    """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
+    powers = np.vander(asked, reflectances.size, increasing=True)
+    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1) @ powers.T)
+
+
 def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
     """Samples from midnight to midnight of the image day that are kept."""
     stride = settings.slice_interval / environment.step
@@ -78,31 +95,3 @@ def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
         raise InputError("bake settings", "slice_interval", settings.slice_interval, problem, "give both one step")
     count = round(SECONDS_PER_DAY / settings.slice_interval)
     return np.asarray(environment.image_window.start + np.arange(count + 1) * round(stride))
-
-
-def _solve_wall(
-    environment: Environment, exposure: Exposure, wall: WallType, settings: BakeSettings, record: np.ndarray
-) -> FloatArray:
-    """Coefficients (t, o, p) [K] of one wall type."""
-    reflectances = np.asarray(settings.reflectances, dtype=np.float64)
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
-    inside = build_interior(
-        wall.interior,
-        environment.air_temperature,
-        environment.wind_speed,
-        environment.step,
-        wall.interior_emissivity,
-        room=wall.room,
-        heat_gain=wall.heat_gain,
-    )
-    water = wall.cover is not None and wall.cover.kind == "water"
-    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
-    start = float(np.mean(environment.air_temperature)) if water else None
-    history = march_paths(
-        wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record, start=start,
-        melting_depth=melting_depth(wall),
-    )  # fmt: skip
-    exterior = history.exterior
-    if water and wall.cover is not None:
-        exterior = cool_skin(exterior, outside, record, wall.cover)
-    return fit_polynomials(exterior, reflectances, settings.degree)
