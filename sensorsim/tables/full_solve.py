@@ -11,14 +11,12 @@ from datetime import date, time
 import numpy as np
 
 from sensorsim.environment import Environment, Weather, build_environment
-from sensorsim.materials import WallType, part_reflectance
+from sensorsim.materials import WallType
 from sensorsim.tables.assign import Assignment
+from sensorsim.tables.histories import solve_histories
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.ground import ground_temperature
-from sensorsim.thermal.heat_balance import Exposure, expose
-from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
-from sensorsim.thermal.paths import march_paths
+from sensorsim.thermal.heat_balance import expose
 
 FINE_STEP = 60.0  # [s]
 LONGEST_LEAD_IN = 4.0  # [days]
@@ -73,62 +71,20 @@ def solve_surfaces(
 ) -> FloatArray:
     """Temperatures (r, m) [K] of the surfaces at the samples `record` (r,), marched at the environment's step.
 
-    `ground` is the plane that the surfaces see. Wall types are solved in threads.
+    `ground` is the plane that the surfaces see. Surfaces of one wall type and reflectance are solved together, the
+    groups in threads.
     """
     soil = ground_temperature(environment, ground, sky=sky)
     temperature = np.zeros((record.size, surfaces.normal.shape[0]))
+    alike, group = np.unique(np.column_stack([surfaces.wall_type, surfaces.reflectance]), axis=0, return_inverse=True)
 
     def solve(row: int) -> None:
-        chosen = np.flatnonzero(surfaces.wall_type == row)
+        chosen = np.flatnonzero(group.ravel() == row)
         exposure = expose(environment, surfaces.normal[chosen], soil, sky=sky)
-        wall, reflectance = surfaces.wall_types[row], surfaces.reflectance[chosen]
-        temperature[:, chosen] = _solve_wall(environment, exposure, wall, reflectance, convection, record)
+        wall, reflectance = surfaces.wall_types[int(alike[row, 0])], alike[row, 1:]
+        solved = solve_histories(environment, exposure, wall, reflectance, record, convection=convection)
+        temperature[:, chosen] = solved[:, :, 0]
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        list(pool.map(solve, np.unique(surfaces.wall_type).tolist()))
+        list(pool.map(solve, range(alike.shape[0])))
     return temperature
-
-
-def _solve_wall(
-    environment: Environment, exposure: Exposure, wall: WallType, reflectance: FloatArray, convection: str,
-    record: np.ndarray,
-) -> FloatArray:  # fmt: skip
-    """Temperatures (r, m) [K] of surfaces of one wall type; of a mixture as in `mix_coefficients`."""
-    if not wall.parts:
-        return _solve_plain(environment, exposure, wall, reflectance, convection, record)
-    mean = sum(part.share * part.reflectance for part in wall.parts)
-    total = sum(part.share * part.wall.emissivity for part in wall.parts)
-    fourth = np.zeros(())
-    for part in wall.parts:
-        own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectance])
-        solved = _solve_plain(environment, exposure, part.wall, own, convection, record)
-        fourth = fourth + part.share * part.wall.emissivity / total * solved**4
-    return np.asarray(fourth**0.25)
-
-
-def _solve_plain(
-    environment: Environment, exposure: Exposure, wall: WallType, reflectance: FloatArray, convection: str,
-    record: np.ndarray,
-) -> FloatArray:  # fmt: skip
-    """Temperatures (r, m) [K]; each surface's irradiance carries its own absorptance, so that the march's is one."""
-    outside = surface_boundary(environment, exposure, wall, correlation=convection)
-    inside = build_interior(
-        wall.interior,
-        environment.air_temperature,
-        environment.wind_speed,
-        environment.step,
-        wall.interior_emissivity,
-        room=wall.room,
-        heat_gain=wall.heat_gain,
-    )
-    water = wall.cover is not None and wall.cover.kind == "water"
-    start = float(np.mean(environment.air_temperature)) if water else None
-    absorbed = outside._replace(irradiance=(1.0 - reflectance) * outside.irradiance)
-    history = march_paths(
-        wall, absorbed, inside, np.ones(1), step=environment.step, record=record, start=start,
-        melting_depth=melting_depth(wall),
-    )  # fmt: skip
-    exterior = history.exterior
-    if water and wall.cover is not None:
-        exterior = cool_skin(exterior, outside, record, wall.cover)
-    return np.asarray(exterior[:, :, 0])
