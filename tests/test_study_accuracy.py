@@ -4,6 +4,7 @@ import csv
 import json
 import sys
 from dataclasses import replace
+from datetime import date
 from functools import cache
 from pathlib import Path
 
@@ -20,10 +21,11 @@ from sensorsim.render import Renderer, station_camera
 from sensorsim.sensor import load_sensor
 from sensorsim.study.accuracy_images import compare, true_world
 from sensorsim.study.accuracy_measure import TIMES, Score, StudyDay, Worst, fitted, score_trial, solve_day, table_bytes
+from sensorsim.study.accuracy_scope import scope_of
 from sensorsim.study.accuracy_surfaces import Sample, catalogue_sample, facing, scene_sample
 from sensorsim.study.accuracy_trials import FACTORS, Trial, plan_trials
 from sensorsim.study.pareto import advise, pareto_front
-from sensorsim.tables import PRESETS, BakeSettings, ShadeTables, bake_tables, orientation_set
+from sensorsim.tables import PRESETS, BakeSettings, bake_tables, orientation_set
 from sensorsim.tables.full_solve import SurfaceSet, distinct_surfaces, fine_environment, solve_surfaces
 from sensorsim.thermal import Season
 
@@ -53,12 +55,13 @@ def day_of(chosen: SurfaceSet) -> StudyDay:
     return StudyDay(day=DAY, weather=winter(), ground=wall_types()[3], sample=sample, world=None)
 
 
-def at_slices(chosen: SurfaceSet, settings: BakeSettings) -> tuple[ShadeTables, np.ndarray]:
-    """Tables of the surfaces' wall types, and the full solve at their slices from the very same environment."""
+def at_slices(chosen: SurfaceSet, settings: BakeSettings) -> tuple[np.ndarray, np.ndarray]:
+    """The fit, and the full solve from the very same environment, at those of TIMES that are slices."""
     environment = build_environment(winter(), image_day=DAY, lead_in_days=settings.lead_in_days, step=settings.step)
     tables = bake_tables(environment, chosen.wall_types, ground=wall_types()[3], settings=settings)
-    record = environment.image_window.start + np.round(tables.time_of_day / settings.step).astype(int)
-    return tables, solve_surfaces(environment, chosen, ground=wall_types()[3], record=record)
+    common = np.isin(TIMES, tables.time_of_day)
+    record = environment.image_window.start + np.round(TIMES[common] / settings.step).astype(int)
+    return fitted(tables, chosen)[common], solve_surfaces(environment, chosen, ground=wall_types()[3], record=record)
 
 
 COARSE = BakeSettings(
@@ -70,16 +73,16 @@ def test_no_error_at_the_orientations_and_reflectances_that_were_solved() -> Non
     """Expected: none but single precision of 300 K, at every slice; the polynomial goes through its reflectances."""
     normal = np.repeat(orientation_set("report10").normal, 3, axis=0)
     chosen = surfaces(normal, np.tile([0.1, 0.5, 0.9], 10), rows=1)
-    tables, truth = at_slices(chosen, COARSE)
-    shade = fitted(tables, chosen)[np.isin(TIMES, tables.time_of_day)]
+    shade, truth = at_slices(chosen, COARSE)
+    assert shade.shape == (25, 30)
     np.testing.assert_allclose(shade, truth, rtol=0.0, atol=1e-4)
 
 
 def test_coarser_sets_of_orientations_are_worse() -> None:
     chosen, errors = surfaces(random_normals(60), np.full(60, 0.3)), []
     for name in ("icosphere162", "icosphere42", "report10"):
-        tables, truth = at_slices(chosen, replace(COARSE, orientations=name))
-        errors.append(np.sqrt(np.mean((fitted(tables, chosen)[np.isin(TIMES, tables.time_of_day)] - truth) ** 2)))
+        shade, truth = at_slices(chosen, replace(COARSE, orientations=name))
+        errors.append(np.sqrt(np.mean((shade - truth) ** 2)))
     assert errors[0] < errors[1] < errors[2]
 
 
@@ -94,10 +97,10 @@ def test_score_is_that_of_the_errors_and_names_the_worst_place() -> None:
     assert score.rms == pytest.approx(np.sqrt(np.mean(error**2)))
     assert score.p99 == pytest.approx(np.percentile(error, 99.0))
     assert score.rms < score.p99 < score.max
-    assert score.worst.row == row
     assert score.worst.hour == TIMES[at] / 3600.0
     assert score.worst.orientation == facing(chosen.normal[row])
-    assert wall_types()[row % 2].name in score.worst.wall
+    assert score.worst.wall is wall_types()[row % 2]
+    assert f"{wall_types()[row % 2].name} ({wall_types()[row % 2].interior}), " in str(score.worst)
     assert score.count.sum() == error.size
     assert score.table == table_bytes(tables[DAY]) / 2**20
     assert score.table * 2**20 >= tables[DAY].coefficients.nbytes
@@ -163,10 +166,10 @@ def test_orientations_are_told_in_words(normal: tuple[float, float, float], word
 
 
 def score(name: str, error: float, bake: float) -> Score:
-    worst = Worst(wall="brick", orientation="wall facing N", reflectance=0.5, hour=9.75, day=DAY, row=0)
+    worst = Worst(wall=wall_types()[0], orientation="wall facing N", reflectance=0.5, hour=9.75, day=DAY)
     return Score(
         trial=trial(COARSE, name), rms=0.1 * error, p99=0.5 * error, max=error, worst=worst, bake=bake,
-        bake_processor=bake, table=1.0, count=np.zeros(50, dtype=np.int64),
+        bake_processor=bake, table=1.0, scope="", count=np.zeros(50, dtype=np.int64),
     )  # fmt: skip
 
 
@@ -280,6 +283,29 @@ def test_frames_of_the_full_solve_have_its_temperatures_and_miss_themselves_by_n
     for told in compare("itself", day, pictures, pictures):
         assert (told.rms, told.max, told.spearman, told.kendall) == (0.0, 0.0, 1.0, 1.0)
         assert told.surfaces > 3
+
+
+def test_dear_settings_are_measured_on_fewer_walls_and_one_knobs_turns_on_one_day() -> None:
+    world = town()
+    sample = scene_sample(world.scene.surfaces.normal, world.assignment, 100)
+    one = StudyDay(day=DAY, weather=winter(), ground=wall_types()[3], sample=sample, world=world)
+    days, truth = (one, replace(one, day=date(1976, 2, 6))), np.arange(sample.whole)[None, :] + np.zeros((3, 1))
+    cheap = trial(COARSE)
+    all_of_it = scope_of(cheap, days, {DAY: truth})
+    assert (len(all_of_it.days), all_of_it.share) == (2, 1.0)
+    assert len(scope_of(replace(cheap, group="factor"), days, {DAY: truth}).days) == 1
+    dear = trial(replace(COARSE, orientations="icosphere2562", step=60.0))
+    part = scope_of(dear, days, {DAY: truth})
+    (left,), total = part.days, len(sample.surfaces.wall_types)
+    few = left.sample.surfaces
+    assert part.share == len(few.wall_types) / total < 1.0
+    assert f"{len(few.wall_types)} of {total} wall types" in part.words
+    rows = part.truth[DAY][0].astype(int)
+    np.testing.assert_array_equal(sample.surfaces.normal[rows], few.normal)
+    for row, old in enumerate(rows):
+        assert few.wall_types[few.wall_type[row]] is sample.surfaces.wall_types[sample.surfaces.wall_type[old]]
+    for surface, row in enumerate(left.sample.row_of):
+        assert row == -1 or rows[row] == sample.row_of[surface]
 
 
 @pytest.fixture(scope="module")

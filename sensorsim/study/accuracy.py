@@ -13,8 +13,9 @@ from sensorsim.render.world import ground_plane
 from sensorsim.scene import Scene
 from sensorsim.sensor import load_sensor
 from sensorsim.study.accuracy_images import ImageScore, compare, look, true_world
-from sensorsim.study.accuracy_measure import Score, StudyDay, fitted, score_trial, solve_day, timed_bake
-from sensorsim.study.accuracy_surfaces import catalogue_sample, scene_sample
+from sensorsim.study.accuracy_measure import Score, StudyDay, fitted, score_trial, solve_day, timed_bake, wall_words
+from sensorsim.study.accuracy_scope import Scope, narrow, scope_of
+from sensorsim.study.accuracy_surfaces import SEED, catalogue_sample, scene_sample
 from sensorsim.study.accuracy_trials import BASELINE, Trial, plan_trials
 from sensorsim.tables import ShadeTables, preset
 from sensorsim.tables.full_solve import SurfaceSet
@@ -71,15 +72,15 @@ def study_accuracy(
     for sky, convection in skies:
         tell(f"full solve, {sky} sky", 0, len(trials))
         truth[sky, convection] = {day.day: solve_day(day, day.sample.surfaces, sky, convection) for day in days}
-    timed_bake(days[0], replace(preset("report"), slice_interval=86400.0))  # so that no trial pays for compiling
+    timed_bake(narrow(days[0], 1)[0], preset("report"))  # so that no trial pays for compiling
     scores, frames, images = [], {}, []
     for done, trial in enumerate(trials):
         tell(trial.name, done, len(trials))
-        own = truth[trial.sky, trial.settings.convection]
-        score, tables = score_trial(trial, days, own)
+        scope = scope_of(trial, days, truth[trial.sky, trial.settings.convection])
+        score, tables = score_trial(trial, scope.days, scope.truth, share=scope.share, scope=scope.words)
         scores.append(score)
         if trial.group == "preset":
-            spent, seen = _look(trial, days, tables, own, backend)
+            spent, seen = _look(trial, scope, tables, backend)
             frames.update({trial.name: spent} if seen else {})
             images += seen
     tell("error map", len(trials), len(trials))
@@ -114,27 +115,26 @@ def scene_days(
 
 
 def catalogue_days(catalogue: Catalogue, moments: Sequence[tuple[Weather, date]]) -> list[StudyDay]:
-    """All materials of the catalogue as random surfaces on image days under their weather."""
+    """All materials of the catalogue as random surfaces, others on each day, on image days under their weather."""
     days = []
-    for weather, day in moments:
+    for number, (weather, day) in enumerate(moments):
         season = season_of(build_environment(weather, image_day=day))
-        sample = catalogue_sample(catalogue, season)
+        sample = catalogue_sample(catalogue, season, SEED + number)
         ground = ground_plane(catalogue, season)
         days.append(StudyDay(day=day, weather=weather, ground=ground, sample=sample, world=None))
     return days
 
 
 def _look(
-    trial: Trial, days: Sequence[StudyDay], tables: Mapping[date, ShadeTables], truth: Mapping[date, FloatArray],
-    backend: str,
-) -> tuple[float, list[ImageScore]]:  # fmt: skip
+    trial: Trial, scope: Scope, tables: Mapping[date, ShadeTables], backend: str
+) -> tuple[float, list[ImageScore]]:
     """Median time of the preset's frames [ms] and its pictures' errors on all days that have a world."""
     sensor, spent, scores = load_sensor("flir"), [], []
-    for day in days:
+    for day in scope.days:
         if day.world is None:
             continue
-        pictures, milliseconds = look(replace(day.world, tables=tables[day.day]), sensor, backend=backend)
-        exact, _ = look(true_world(day.world, day, truth[day.day]), sensor, backend=backend)
+        pictures, milliseconds = look(replace(day.world, tables=tables[day.day]), sensor, timed=True, backend=backend)
+        exact, _ = look(true_world(day.world, day, scope.truth[day.day]), sensor, timed=False, backend=backend)
         spent.append(milliseconds)
         scores += compare(trial.name, day, pictures, exact)
     return float(np.median(spent)) if spent else 0.0, scores
@@ -143,18 +143,17 @@ def _look(
 def _map(scores: Sequence[Score], days: Sequence[StudyDay]) -> ErrorMap:
     """Of the baseline where it was measured, else of the first setting."""
     score = next((each for each in scores if each.trial.name == BASELINE), scores[0])
-    day = next(each for each in days if each.day == score.worst.day)
-    worst, azimuth = score.worst.row, np.radians(AZIMUTHS)
+    day, azimuth = next(each for each in days if each.day == score.worst.day), np.radians(AZIMUTHS)
     surfaces = SurfaceSet(
-        wall_types=day.sample.surfaces.wall_types,
-        wall_type=np.full(azimuth.size, day.sample.surfaces.wall_type[worst]),
+        wall_types=(score.worst.wall,),
+        wall_type=np.zeros(azimuth.size, dtype=np.int64),
         normal=np.column_stack([np.sin(azimuth), np.cos(azimuth), np.zeros(azimuth.size)]),
-        reflectance=np.full(azimuth.size, day.sample.surfaces.reflectance[worst]),
+        reflectance=np.full(azimuth.size, score.worst.reflectance),
     )
     settings = score.trial.settings
-    tables, _, _ = timed_bake(day, settings)
+    tables, _, _ = timed_bake(replace(day, sample=replace(day.sample, surfaces=surfaces)), settings)
     error = fitted(tables, surfaces) - solve_day(day, surfaces, score.trial.sky, settings.convection)
-    return ErrorMap(name=score.trial.name, wall=score.worst.wall, day=day.day, error=error)
+    return ErrorMap(name=score.trial.name, wall=wall_words(score.worst.wall), day=day.day, error=error)
 
 
 def _sampled(days: Sequence[StudyDay]) -> str:

@@ -1,6 +1,6 @@
 """Error and cost of bake settings: tables are baked and held against the full solve of the very surfaces.
 
-Errors are taken every five minutes of the day, so that what is lost between slices counts too.
+Errors are taken every twelve minutes of the day, on slices and between them.
 """
 
 import time
@@ -23,7 +23,7 @@ from sensorsim.tables.orientations import FloatArray
 
 Progress = Callable[[str, int, int], None]
 
-SPACING = 300.0  # [s] between the times of day that are looked at
+SPACING = 720.0  # [s] between the times of day that are looked at; full hours are among them
 TIMES = np.linspace(0.0, SECONDS_PER_DAY, round(SECONDS_PER_DAY / SPACING) + 1)
 BINS = np.geomspace(1e-4, 10.0, 51)  # [K] of the histograms; what lies beyond goes to the first and the last bin
 MEBIBYTE = 2.0**20
@@ -44,16 +44,21 @@ class StudyDay:
 class Worst:
     """Where the largest error is."""
 
-    wall: str
+    wall: WallType
     orientation: str
     reflectance: float
     hour: float
     day: date
-    row: int  # of the day's surfaces
 
     def __str__(self) -> str:
         clock = f"{int(self.hour):02d}:{round(self.hour % 1.0 * 60.0):02d}"
-        return f"{self.wall}, {self.orientation}, reflectance {self.reflectance:.2f}, {clock} on {self.day.isoformat()}"
+        place = f"{wall_words(self.wall)}, {self.orientation}, reflectance {self.reflectance:.2f}"
+        return f"{place}, {clock} on {self.day.isoformat()}"
+
+
+def wall_words(wall: WallType) -> str:
+    """Name of a wall type with the condition behind it."""
+    return wall.name if wall.interior == "none" else f"{wall.name} ({wall.interior})"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,13 +70,11 @@ class Score:
     p99: float  # [K]
     max: float  # [K]
     worst: Worst
-    bake: float  # [s] of one day, elapsed
-    bake_processor: float  # [s] of one day, of all processors together
-    table: float  # [MiB]
+    bake: float  # [s] of one day and all wall types, elapsed
+    bake_processor: float  # [s] of all processors together
+    table: float  # [MiB] of one day and all wall types
+    scope: str  # days and wall types that were measured
     count: NDArray[np.int64]  # of errors by BINS
-
-
-Truth = Mapping[date, FloatArray]  # (t, m) [K] at TIMES, by day
 
 
 def solve_day(day: StudyDay, surfaces: SurfaceSet, sky: str, convection: str) -> FloatArray:
@@ -103,14 +106,19 @@ def table_bytes(tables: ShadeTables) -> int:
     return sum(array.nbytes for array in held if isinstance(array, np.ndarray))
 
 
-def score_trial(trial: Trial, days: Sequence[StudyDay], truth: Truth) -> tuple[Score, Mapping[date, ShadeTables]]:
-    """The trial over all days, its costs the mean of them, with the tables that were baked."""
+def score_trial(
+    trial: Trial, days: Sequence[StudyDay], truth: Mapping[date, FloatArray], *, share: float = 1.0, scope: str = ""
+) -> tuple[Score, Mapping[date, ShadeTables]]:
+    """The trial over the days, against the full solves (t, m) [K] of them, with the tables that were baked.
+
+    Costs are the mean of the days, over the `share` of the wall types that the days have.
+    """
     tables, cost, errors = {}, [], []
     for day in days:
         tables[day.day], elapsed, processor = timed_bake(day, trial.settings)
         cost.append((elapsed, processor, table_bytes(tables[day.day])))
         errors.append(fitted(tables[day.day], day.sample.surfaces) - truth[day.day])
-    elapsed, processor, size = np.mean(cost, axis=0)
+    elapsed, processor, size = np.mean(cost, axis=0) / share
     every = np.abs(np.concatenate([error.ravel() for error in errors]))
     score = Score(
         trial=trial,
@@ -121,6 +129,7 @@ def score_trial(trial: Trial, days: Sequence[StudyDay], truth: Truth) -> tuple[S
         bake=float(elapsed),
         bake_processor=float(processor),
         table=float(size / MEBIBYTE),
+        scope=scope,
         count=np.histogram(np.clip(every, BINS[0], BINS[-1]), BINS)[0],
     )
     return score, tables
@@ -130,12 +139,10 @@ def _worst(days: Sequence[StudyDay], errors: Sequence[FloatArray]) -> Worst:
     day, error = max(zip(days, errors, strict=True), key=lambda pair: float(np.abs(pair[1]).max()))
     at, row = np.unravel_index(int(np.abs(error).argmax()), error.shape)
     surfaces = day.sample.surfaces
-    wall = surfaces.wall_types[int(surfaces.wall_type[row])]
     return Worst(
-        wall=wall.name if wall.interior == "none" else f"{wall.name} ({wall.interior})",
+        wall=surfaces.wall_types[int(surfaces.wall_type[row])],
         orientation=facing(surfaces.normal[row]),
         reflectance=float(surfaces.reflectance[row]),
         hour=float(TIMES[at] / SECONDS_PER_HOUR),
         day=day.day,
-        row=int(row),
     )

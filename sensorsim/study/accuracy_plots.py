@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = {"preset": "#D55E00", "combination": "#0072B2", "factor": "#999999"}  # that all colour vision tells apart
+COLOURS = {"combination": "#0072B2", "preset": "#D55E00"}  # that all colour vision tells apart
 LINES = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-WORDS = {"preset": "presets", "combination": "combinations", "factor": "one knob turned"}
+WORDS = {"preset": "presets", "combination": "combinations"}
 
 
 def pareto_figure(scores: Sequence[Score]) -> "Figure":
@@ -89,6 +89,8 @@ def _pareto(axes: "Axes", scores: Sequence[Score], cost: Sequence[float], label:
     p99 = np.array([score.p99 for score in scores])
     for group, colour in COLOURS.items():
         rows = [row for row, score in enumerate(scores) if score.trial.group == group]
+        if not rows:
+            continue
         x, low, high = ([values[row] for row in rows] for values in (cost, p99, [score.max for score in scores]))
         axes.vlines(x, low, high, color=colour, linewidth=0.7, alpha=0.5)
         axes.plot(x, low, "o", color=colour, markersize=6 if group == "preset" else 4, label=WORDS[group])

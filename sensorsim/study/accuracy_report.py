@@ -17,7 +17,7 @@ from sensorsim.study.pareto import Advice, advise, pareto_front
 from sensorsim.thermal import write_whole
 
 ERROR_BUDGETS, BAKE_BUDGETS = (0.3, 1.0, 3.0), (0.5, 2.0, 10.0)  # [K], [s] that the page gives advice for
-HEAD = ("setting", "RMS [K]", "p99 [K]", "max [K]", "worst", "bake [s]", "processor [s]", "tables [MiB]")
+HEAD = ("setting", "RMS [K]", "p99 [K]", "max [K]", "worst", "bake [s]", "processor [s]", "tables [MiB]", "measured on")
 SCORE_HEAD = ("group", *HEAD, "frame [ms]", "front")
 IMAGE_HEAD = ("setting", "day", "hour", "RMS [K]", "max [K]", "Spearman", "Kendall", "surfaces")
 
@@ -58,12 +58,14 @@ def accuracy_page(found: Accuracy, advice: Advice | None = None) -> Page:
     page = Page(f"Accuracy against time: {found.title}")
     page.text(
         f"Error is the temperature by the tables less that of the full solve of the very surface in steps of one "
-        f"minute under the same sky, every five minutes of the day: {found.sampled}. Bake times are those of one day "
+        f"minute under the same sky, every twelve minutes of the day: {found.sampled}. Bake times are those of one day "
         f"of all wall types on the machine that ran this, elapsed and summed over processors; the plots use the latter."
     )
-    page.figure(pareto_figure(found.scores), "Error against the cost of a bake, and against the size of its tables")
+    if found.candidates:
+        words = "Error against the cost of a bake, and against the size of its tables"
+        page.figure(pareto_figure(found.candidates), words)
     page.heading("Presets")
-    page.table((*HEAD, "frame [ms]"), [(*row[1:9], row[9]) for row in _score_rows(found) if row[0] == "preset"])
+    page.table((*HEAD, "frame [ms]"), [row[1:11] for row in _score_rows(found) if row[0] == "preset"])
     presets = [score for score in found.scores if score.trial.group == "preset"]
     if presets:
         page.figure(histogram_figure(presets), "How often an error is exceeded")
@@ -111,19 +113,30 @@ def _factors(page: Page, found: Accuracy) -> None:
 
 
 def _score_rows(found: Accuracy) -> list[tuple[Any, ...]]:
-    on_front = _front(found.scores)
+    front = _front(found.candidates)
     return [
         (
-            score.trial.group, score.trial.name, score.rms, score.p99, score.max, str(score.worst), score.bake,
-            score.bake_processor, score.table, found.frames.get(score.trial.name, ""), "yes" if row in on_front else "",
+            score.trial.group,
+            score.trial.name,
+            score.rms,
+            score.p99,
+            score.max,
+            str(score.worst),
+            score.bake,
+            score.bake_processor,
+            score.table,
+            score.scope,
+            found.frames.get(score.trial.name, ""),
+            "yes" if score.trial.name in front else "",
         )
-        for row, score in enumerate(found.scores)
-    ]  # fmt: skip
+        for score in found.scores
+    ]
 
 
-def _front(scores: Sequence[Score]) -> set[int]:
+def _front(scores: Sequence[Score]) -> set[str]:
+    """Names of the settings that no other beats in both p99 and bake."""
     cost, error = (np.array([getattr(score, name) for score in scores]) for name in ("bake_processor", "p99"))
-    return set(pareto_front(cost, error).tolist())
+    return {scores[row].trial.name for row in pareto_front(cost, error)}
 
 
 def _image_rows(found: Accuracy) -> list[tuple[Any, ...]]:

@@ -12,7 +12,7 @@ from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal import Season
 
 SEED = 1978
-NORMALS, REFLECTANCES = 16, 3  # of each of the catalogue's wall types
+NORMALS = 16  # of each of the catalogue's wall types
 POINTS = (
     *("N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE"),
     *("S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"),
@@ -46,16 +46,16 @@ def scene_sample(normal: FloatArray, assignment: Assignment, limit: int) -> Samp
     return Sample(surfaces=surfaces, whole=whole, row_of=place[found.row_of])
 
 
-def catalogue_sample(catalogue: Catalogue, season: Season) -> Sample:
-    """Every material, buildings heated, at NORMALS random normals for each of REFLECTANCES random reflectances."""
+def catalogue_sample(catalogue: Catalogue, season: Season, seed: int = SEED) -> Sample:
+    """Every material, buildings heated, at a random reflectance and NORMALS random normals."""
     walls = tuple(_wall_type(catalogue, code, season) for code in catalogue.materials)
-    random, count = np.random.default_rng(SEED), len(walls) * REFLECTANCES * NORMALS
+    random, count = np.random.default_rng(seed), len(walls) * NORMALS
     normal = random.normal(size=(count, 3))
     surfaces = SurfaceSet(
         wall_types=walls,
-        wall_type=np.repeat(np.arange(len(walls)), REFLECTANCES * NORMALS),
+        wall_type=np.repeat(np.arange(len(walls)), NORMALS),
         normal=normal / np.linalg.norm(normal, axis=1, keepdims=True),
-        reflectance=np.repeat(random.uniform(0.0, 1.0, len(walls) * REFLECTANCES), NORMALS),
+        reflectance=np.repeat(random.uniform(0.0, 1.0, len(walls)), NORMALS),
     )
     return Sample(surfaces=surfaces, whole=count, row_of=np.zeros(0, dtype=np.int64))
 
