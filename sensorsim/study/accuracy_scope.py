@@ -12,7 +12,8 @@ from sensorsim.study.accuracy_trials import Trial
 from sensorsim.tables import BakeSettings, orientation_set
 from sensorsim.tables.orientations import FloatArray, IntArray
 
-MOST_WORK = 3e7  # columns times steps that one trial may march, half a minute of one processor
+MOST_WORK = 3e7  # columns times steps that a preset or a combination may march, half a minute of one processor
+FACTOR_WALLS = 6  # wall types that one knob's turns are measured on
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -26,12 +27,16 @@ class Scope:
 
 
 def scope_of(trial: Trial, days: Sequence[StudyDay], truth: Mapping[date, FloatArray]) -> Scope:
-    """All days; of one knob's turns the first; of what would take more than MOST_WORK the first with fewer walls."""
-    walls = len(days[0].sample.surfaces.wall_types)
-    each = work(trial.settings)
-    if trial.group == "factor" or each * walls * len(days) > MOST_WORK:
-        days = days[:1]
-    count = int(np.clip(MOST_WORK // each, 1, walls))
+    """All days; of what would take more than MOST_WORK the first, with as many wall types as it leaves time for.
+
+    One knob's turns are all measured on the same FACTOR_WALLS wall types of the first day.
+    """
+    walls, each = len(days[0].sample.surfaces.wall_types), work(trial.settings)
+    if trial.group == "factor":
+        days, count = days[:1], min(FACTOR_WALLS, walls)
+    else:
+        days = days if each * walls * len(days) <= MOST_WORK else days[:1]
+        count = int(np.clip(MOST_WORK // each, 1, walls))
     words = ", ".join(day.day.isoformat() for day in days)
     if count == walls:
         return Scope(days=tuple(days), truth=truth, share=1.0, words=words)
