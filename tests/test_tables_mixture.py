@@ -99,7 +99,10 @@ def test_the_block_lies_between_its_components_and_radiates_as_they_do(catalogue
 
 
 def test_the_bake_mixes_what_it_solves_for_the_components(catalogue: Catalogue) -> None:
-    settings = BakeSettings(orientations="report10", step=1800.0, slice_interval=7200.0, lead_in_days=1.0)
+    settings = BakeSettings(
+        orientations="report10", interpolation="barycentric", lobes=0.0, step=1800.0, slice_interval=7200.0,
+        lead_in_days=1.0, reflectances=(0.1, 0.3, 0.5, 0.7, 0.9), degree=4,
+    )  # fmt: skip
     weather = read_weather("fall")
     environment = build_environment(weather, image_day=date(1976, 10, 7), lead_in_days=1.0, step=1800.0)
     made = catalogue.wall_type(30, "heated", coverage=Coverage(roof=0.3, tree=0.3))

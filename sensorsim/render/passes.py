@@ -14,6 +14,7 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "lobe_table": 5,
 }
 
 
@@ -42,16 +43,18 @@ class Pass:
         self.program.release()
 
 
-def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+def surface_pass(
+    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool, lobes: bool
+) -> Pass:
     """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
     return Pass(
         ctx,
         "scene/surface.vert",
         "scene/surface.frag",
         blocks=(VIEW_FRAME, ILLUMINATION),
-        samplers=("surface_table", "coefficient_table", "band_radiance_table"),
+        samplers=("surface_table", "coefficient_table", "band_radiance_table", *(("lobe_table",) if lobes else ())),
         generated={**generated, "constants": constants_glsl()},
-        defines={"EMISSIVE": int(emissive)},
+        defines={"EMISSIVE": int(emissive), "LOBES": int(lobes)},
         mesh=mesh,
     )
 

@@ -20,7 +20,7 @@ from sensorsim.render.surface_table import surface_table
 from sensorsim.render.world import World
 from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
 _BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
@@ -101,7 +101,6 @@ class Renderer:
         ctx, world = self.ctx, self.world
         surfaces, mesh = world.scene.surfaces, world.scene.mesh
         records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
-        coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
         sky = LookupTable(
             name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
@@ -109,20 +108,21 @@ class Renderer:
         )  # fmt: skip
         self._tables = {
             "surface_table": float_table(ctx, "surface_table", records),
-            "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
         }
+        self._tables_at = 0.0
+        for name, texels in shade_texels(world.tables, self._tables_at).items():
+            self._tables[name] = float_table(ctx, name, texels)
         generated = {
-            "coefficients": coefficient_glsl(coefficients.shape[-1]),
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             "sky_radiance": sky.glsl(),
         }
-        buffers = mesh_buffers(
-            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
-        )
-        emissive = self.sensor.mode == "emissive"
-        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
+        vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
+        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
+        buffers = mesh_buffers(ctx, vertices, mesh.triangle)
+        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
         self._background = background_pass(ctx, generated)
         self._show = display_pass(ctx)
         self._target = render_target(ctx, self.size, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
@@ -142,8 +142,7 @@ class Renderer:
         )
 
     def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
-        coefficients = self.world.tables.at(time_of_day)
-        update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
+        self._set_tables(time_of_day)
         update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
@@ -156,6 +155,14 @@ class Renderer:
                 attenuation=illumination.attenuation,
             )
         )
+
+    def _set_tables(self, time_of_day: float) -> None:
+        """Upload the tables of a moment, where the clock has moved."""
+        if time_of_day == self._tables_at:
+            return
+        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+            update_table(self._tables[name], texels)
+        self._tables_at = time_of_day
 
     def _draw(self, camera: Camera) -> None:
         position = self.world.scene.mesh.position

@@ -8,9 +8,10 @@ import numpy as np
 from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
-from sensorsim.tables import BakeSettings, ShadeTables, surface_temperature
+from sensorsim.tables import BakeSettings, ShadeTables
 from sensorsim.tables.histories import solve_histories
 from sensorsim.tables.orientations import FloatArray
+from sensorsim.tables.shade import shade
 from sensorsim.thermal import expose, ground_temperature
 
 
@@ -78,11 +79,14 @@ def fit_error(tables: ShadeTables, surfaces: Surfaces, solved: Sequence[FloatArr
     count, several = surfaces.normal.shape[0], surfaces.reflectance.size
     normal = np.repeat(surfaces.normal, several, axis=0)
     reflectance = np.tile(surfaces.reflectance, count)
-    errors = []
-    for wall, truth in zip(surfaces.wall_types, solved, strict=True):
-        row = np.full(normal.shape[0], tables.wall_types.index(wall))
-        shade = [surface_temperature(tables, normal, row, reflectance, float(t)) for t in surfaces.time_of_day]
-        errors.append(np.asarray(shade).reshape(truth.shape) - truth)
+    place = tables.orientations.locate(normal)
+    rows = [np.full(normal.shape[0], tables.wall_types.index(wall)) for wall in surfaces.wall_types]
+    errors = [np.zeros(truth.shape) for truth in solved]
+    for index, time in enumerate(surfaces.time_of_day):
+        moment = tables.at(float(time))
+        for error, truth, row in zip(errors, solved, rows, strict=True):
+            shaded = shade(moment, place, normal, row, reflectance)
+            error[index] = shaded.reshape(truth.shape[1:]) - truth[index]
     return errors
 
 

@@ -10,16 +10,24 @@ from sensorsim.errors import InputError
 from sensorsim.tables.orientations import LAYOUTS
 from sensorsim.thermal import CORRELATIONS, SKIES
 
+INTERPOLATIONS = ("spline", "barycentric", "closest")
+PRECISIONS = ("float32", "float16")
+FIVE = (0.1, 0.3, 0.5, 0.7, 0.9)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BakeSettings:
     """How finely histories are solved and fitted."""
 
-    orientations: str = "icosphere162"  # layout of the standard orientations
-    reflectances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)  # solar reflectances that are solved
-    degree: int = 4  # of the polynomial in reflectance
+    orientations: str = "octahedron66"  # layout of the standard orientations
+    interpolation: str = "spline"  # between them, one of INTERPOLATIONS
+    lobes: float = 1800.0  # [s] between the sun's places that have lobes of their own; 0: no lobes
+    reflectances: tuple[float, ...] = (0.07, 0.5, 0.93)  # solar reflectances that are solved
+    degree: int = 2  # of the polynomial in reflectance
     step: float = 300.0  # [s]
-    slice_interval: float = 900.0  # [s] between the times that are kept
+    cell_size: float = 1.0  # of the walls' finite volumes over the usual
+    slice_interval: float = 300.0  # [s] between the times that are kept
+    precision: str = "float32"  # of the numbers that are kept, one of PRECISIONS
     lead_in_days: float = 3.0  # before the image day
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
@@ -28,13 +36,22 @@ class BakeSettings:
         """Refuse what cannot be solved or fitted."""
         for entry, broken, remedy in (
             ("orientations", self.orientations not in LAYOUTS, f"use one of {', '.join(LAYOUTS)}"),
+            ("interpolation", self.interpolation not in INTERPOLATIONS, f"use one of {', '.join(INTERPOLATIONS)}"),
+            ("orientations", self._too_few(), "use 26 or more of them with splines"),
+            ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
+            (
+                "lobes",
+                self.lobes != 0 and not (_is_whole(self.lobes, self.step) and _is_whole(SECONDS_PER_DAY, self.lobes)),
+                "use 0, or a multiple of the step that divides the day",
+            ),
+            ("cell_size", not 0.05 <= self.cell_size <= 5.0, "use a size from 0.05 to 5"),
+            ("precision", self.precision not in PRECISIONS, f"use one of {', '.join(PRECISIONS)}"),
             ("reflectances", _unusable(self.reflectances), "give different values between 0 and 1"),
             (
                 "degree",
                 not (isinstance(self.degree, int) and 0 <= self.degree < len(self.reflectances)),
                 "use a whole number from 0 up to the number of reflectances less one",
             ),
-            ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
             (
                 "slice_interval",
                 not (_is_whole(self.slice_interval, self.step) and _is_whole(SECONDS_PER_DAY, self.slice_interval)),
@@ -46,6 +63,9 @@ class BakeSettings:
         ):
             if broken:
                 raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
+
+    def _too_few(self) -> bool:
+        return self.interpolation == "spline" and self.orientations in ("report10", "octahedron18")
 
     def to_dict(self) -> dict[str, Any]:
         """All settings by name."""
@@ -66,12 +86,15 @@ def _is_whole(whole: float, part: float) -> bool:
 
 
 PRESETS = {
-    "report": BakeSettings(
-        orientations="report26", sky="quadrants"
-    ),  # the few orientations, five reflectances and quartic of 1978
+    "draft": BakeSettings(orientations="report26", interpolation="barycentric", lobes=3600.0, step=600.0, cell_size=1.5,
+                          slice_interval=1200.0, lead_in_days=2.0),
+    # the choices of 1978: few orientations, the closest three, five reflectances and a quartic, quarters of the sky
+    "report": BakeSettings(orientations="report26", interpolation="closest", lobes=0.0, reflectances=FIVE, degree=4,
+                           slice_interval=900.0, sky="quadrants"),
     "standard": BakeSettings(),
-    "reference": BakeSettings(orientations="icosphere642", step=60.0, lead_in_days=4.0),
-}
+    "reference": BakeSettings(orientations="icosphere642", interpolation="barycentric", lobes=300.0, reflectances=FIVE,
+                              degree=4, step=60.0, lead_in_days=4.0),
+}  # fmt: skip
 
 
 def preset(name: str) -> BakeSettings:

@@ -1,7 +1,6 @@
 #version 330 core
 // Provides: band radiance at the sensor [W m-2 sr-1], surface temperature [K], range [m] and surface id of a surface.
 // EMISSIVE 1: thermal bands, 0: reflective bands.
-#include "radiance/shade.glsl"
 #include "radiance/path.glsl"
 #include "radiance/emitted.glsl"
 #include "radiance/reflected.glsl"
@@ -10,6 +9,7 @@ in vec3 from_camera;
 flat in vec4 record[4];
 flat in vec4 reflectance_record;
 flat in int surface_id;
+flat in float temperature;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
 layout(location = 1) out int id;
@@ -17,8 +17,6 @@ layout(location = 1) out int id;
 void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
-    Kelvin temperature =
-        surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
 #if EMISSIVE
     Radiance source = emitted_radiance(temperature, record[1].w, normal);
 #else
