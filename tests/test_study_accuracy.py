@@ -61,29 +61,42 @@ def at_slices(chosen: SurfaceSet, settings: BakeSettings) -> tuple[np.ndarray, n
     tables = bake_tables(environment, chosen.wall_types, ground=wall_types()[3], settings=settings)
     common = np.isin(TIMES, tables.time_of_day)
     record = environment.image_window.start + np.round(TIMES[common] / settings.step).astype(int)
-    return fitted(tables, chosen)[common], solve_surfaces(environment, chosen, ground=wall_types()[3], record=record)
+    ground = wall_types()[3]
+    return fitted(tables, chosen)[common], solve_surfaces(
+        environment, chosen, ground=ground, record=record, cell_size=settings.cell_size
+    )
 
 
 COARSE = BakeSettings(
-    orientations="report10", reflectances=(0.1, 0.5, 0.9), degree=2, step=900.0, slice_interval=900.0, lead_in_days=1.0
+    orientations="report10",
+    interpolation="barycentric",
+    lobes=0.0,
+    reflectances=(0.1, 0.5, 0.9),
+    degree=2,
+    step=900.0,
+    slice_interval=900.0,
+    lead_in_days=1.0,
 )
 
 
-def test_no_error_at_the_orientations_and_reflectances_that_were_solved() -> None:
+@pytest.mark.parametrize("lobes", [0.0, 3600.0])
+def test_no_error_at_the_orientations_and_reflectances_that_were_solved(lobes: float) -> None:
     """Expected: none but single precision of 300 K, at every slice; the polynomial goes through its reflectances."""
     normal = np.repeat(orientation_set("report10").normal, 3, axis=0)
     chosen = surfaces(normal, np.tile([0.1, 0.5, 0.9], 10), rows=1)
-    shade, truth = at_slices(chosen, COARSE)
+    shade, truth = at_slices(chosen, replace(COARSE, lobes=lobes, step=300.0))
     assert shade.shape == (25, 30)
     np.testing.assert_allclose(shade, truth, rtol=0.0, atol=1e-4)
 
 
-def test_coarser_sets_of_orientations_are_worse() -> None:
+def test_coarser_sets_of_orientations_and_no_lobes_are_worse() -> None:
     chosen, errors = surfaces(random_normals(60), np.full(60, 0.3)), []
     for name in ("icosphere162", "icosphere42", "report10"):
         shade, truth = at_slices(chosen, replace(COARSE, orientations=name))
         errors.append(np.sqrt(np.mean((shade - truth) ** 2)))
     assert errors[0] < errors[1] < errors[2]
+    shade, truth = at_slices(chosen, replace(COARSE, lobes=3600.0, step=300.0))
+    assert np.sqrt(np.mean((shade - truth) ** 2)) < errors[2]
 
 
 def test_score_is_that_of_the_errors_and_names_the_worst_place() -> None:

@@ -17,8 +17,9 @@ from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.render import Camera, Picture, Renderer, World, station_camera
 from sensorsim.sensor import Sensor
 from sensorsim.study.accuracy_measure import TIMES, StudyDay
-from sensorsim.tables import ShadeTables
-from sensorsim.tables.orientations import FloatArray, orientation_set
+from sensorsim.tables import ShadeTables, preset
+from sensorsim.tables.coefficients import lookup_orientations
+from sensorsim.tables.orientations import FloatArray
 
 HOURS = (7.0, 10.0, 13.0, 17.0)  # of section IV of [Report1978]
 SIZE = (640, 480)
@@ -54,8 +55,8 @@ def look(world: World, sensor: Sensor, *, timed: bool, backend: str = "auto") ->
 
 def true_world(world: World, day: StudyDay, temperature: FloatArray) -> World:
     """A world whose measured surfaces have the temperatures (t, m) [K] of the full solve at TIMES."""
-    row_of = np.maximum(day.sample.row_of, 0)
-    orientations = orientation_set("report10")
+    plain = preset("report")  # no lobes, no splines
+    orientations = lookup_orientations(plain)
     copies = (1, 1, orientations.normal.shape[0], 1)
     tables = ShadeTables(
         day=day.day,
@@ -63,9 +64,13 @@ def true_world(world: World, day: StudyDay, temperature: FloatArray) -> World:
         wall_types=tuple(day.sample.surfaces.wall_types[row] for row in day.sample.surfaces.wall_type),
         orientations=orientations,
         coefficients=np.tile(temperature[:, :, None, None], copies).astype(np.float32),
+        level=np.zeros(temperature.shape),
+        bend=np.zeros(temperature.shape),
+        lobes=None,
         ground_temperature=np.interp(TIMES, world.tables.time_of_day, world.tables.ground_temperature),
-        settings=world.tables.settings,
+        settings=plain,
     )
+    row_of = np.maximum(day.sample.row_of, 0)
     return replace(world, tables=tables, assignment=replace(world.assignment, wall_type=row_of))
 
 

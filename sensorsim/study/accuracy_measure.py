@@ -17,9 +17,10 @@ from sensorsim.materials import WallType
 from sensorsim.render import World
 from sensorsim.study.accuracy_surfaces import Sample, facing
 from sensorsim.study.accuracy_trials import Trial
-from sensorsim.tables import BakeSettings, ShadeTables, bake_tables, surface_temperature
+from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
 from sensorsim.tables.full_solve import FINE_STEP, SurfaceSet, fine_environment, solve_surfaces
 from sensorsim.tables.orientations import FloatArray
+from sensorsim.tables.shade import shade
 
 Progress = Callable[[str, int, int], None]
 
@@ -97,12 +98,14 @@ def timed_bake(day: StudyDay, settings: BakeSettings) -> tuple[ShadeTables, floa
 def fitted(tables: ShadeTables, surfaces: SurfaceSet) -> FloatArray:
     """Temperatures (t, m) [K] of surfaces at TIMES as the tables have them."""
     normal, wall_type, reflectance = surfaces.normal, surfaces.wall_type, surfaces.reflectance
-    return np.stack([surface_temperature(tables, normal, wall_type, reflectance, float(at)) for at in TIMES])
+    place = tables.orientations.locate(normal)
+    return np.stack([shade(tables.at(float(at)), place, normal, wall_type, reflectance) for at in TIMES])
 
 
 def table_bytes(tables: ShadeTables) -> int:
-    """Bytes of all arrays of the tables."""
-    held = (getattr(tables, field.name) for field in fields(tables))
+    """Bytes of all arrays of the tables, those of their lobes included."""
+    held = [getattr(tables, field.name) for field in fields(tables)]
+    held += [] if tables.lobes is None else [getattr(tables.lobes, field.name) for field in fields(tables.lobes)]
     return sum(array.nbytes for array in held if isinstance(array, np.ndarray))
 
 

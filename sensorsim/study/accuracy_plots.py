@@ -41,7 +41,8 @@ def factor_figure(title: str, scores: Sequence[Score]) -> "Figure":
         ("RMS", LINES[2], [score.rms for score in scores]),
     ):
         left.plot(places, errors, "o-", color=colour, label=label)
-    _logarithmic(left.yaxis)
+    left.set_yscale("log")
+    _plain_numbers(left.yaxis)
     left.set_xticks(places, [score.trial.name.split(" ", 1)[1] for score in scores])
     left.set_xlabel(title)
     left.set_ylabel("error [K]")
@@ -102,18 +103,19 @@ def _pareto(axes: "Axes", scores: Sequence[Score], cost: Sequence[float], label:
                 axes.annotate(scores[row].trial.name, (cost[row], p99[row]), textcoords="offset points", xytext=(6, 4))
     front = pareto_front(np.asarray(cost, dtype=np.float64), p99)
     axes.step(np.asarray(cost)[front], p99[front], where="post", color="black", linewidth=1.0, label="front")
-    _logarithmic(axes.xaxis)
-    _logarithmic(axes.yaxis)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    _plain_numbers(axes.xaxis)
+    _plain_numbers(axes.yaxis)
     axes.margins(x=0.15)
     axes.set_xlabel(label)
     axes.grid(alpha=0.3)
 
 
-def _logarithmic(axis: "Axis") -> None:
-    """Ticks at 1, 2 and 5 of each decade, as plain numbers; not the decades alone, of which there may be none."""
+def _plain_numbers(axis: "Axis") -> None:
+    """Ticks of a logarithmic axis at 1, 2 and 5 of each decade; of decades alone there may be none."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())

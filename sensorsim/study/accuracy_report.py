@@ -57,9 +57,10 @@ def accuracy_page(found: Accuracy, advice: Advice | None = None) -> Page:
     """The page, its plots included."""
     page = Page(f"Accuracy against time: {found.title}")
     page.text(
-        f"Error is the temperature by the tables less that of the full solve of the very surface in steps of one "
-        f"minute under the same sky, every twelve minutes of the day: {found.sampled}. Bake times are those of one day "
-        f"of all wall types on the machine that ran this, elapsed and summed over processors; the plots use the latter."
+        "Error is the temperature by the tables less that of the full solve of the very surface, in steps of one minute "
+        "and cells of half the size under the same sky, every twelve minutes of the day: "
+        f"{found.sampled}. Bake times are those of one day of all wall types on the machine that ran this, elapsed and "
+        "summed over processors; the plots use the latter."
     )
     if found.candidates:
         words = "Error against the cost of a bake, and against the size of its tables"

@@ -1,5 +1,6 @@
 """What is tried: the presets, one knob at a time away from the default, and combinations between them."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -8,8 +9,7 @@ from sensorsim.errors import InputError
 from sensorsim.tables import PRESETS, BakeSettings, preset
 
 BASELINE = "standard"  # that one knob at a time is turned away from
-THREE = (0.1, 0.5, 0.9)
-SEVEN = (0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98)
+TWO, THREE, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,46 +31,83 @@ class Factor:
     values: Sequence[tuple[str, Mapping[str, Any]]]  # label, changes of the baseline
 
 
+def _values(knob: str, *values: Any) -> tuple[tuple[str, Mapping[str, Any]], ...]:
+    """Values of one knob under their own names."""
+    return tuple((f"{value:g}" if isinstance(value, float) else str(value), {knob: value}) for value in values)
+
+
 FACTORS: Mapping[str, Factor] = {
     "orientations": Factor(
         title="standard orientations",
-        values=tuple(
-            (name, {"orientations": name})
-            for name in ("report10", "report26", "icosphere42", "icosphere162", "icosphere642")
+        values=_values(
+            "orientations",
+            "report26",
+            "icosphere42",
+            "octahedron66",
+            "icosphere162",
+            "octahedron258",
         ),
     ),
+    "interpolation": Factor(
+        title="interpolation between them",
+        values=_values("interpolation", "spline", "barycentric", "closest"),
+    ),
+    "lobes": Factor(
+        title="time between sun lobes [s], 0 for none",
+        values=_values("lobes", 0.0, 7200.0, 3600.0, 1800.0, 900.0, 300.0),
+    ),
     "reflectances": Factor(
-        title="reflectances that are solved, through all of which the polynomial goes",
-        values=(
-            ("2", {"reflectances": (0.1, 0.9), "degree": 1}),
-            ("3", {"reflectances": THREE, "degree": 2}),
-            ("5", {"reflectances": (0.1, 0.3, 0.5, 0.7, 0.9), "degree": 4}),
-            ("7", {"reflectances": SEVEN, "degree": 6}),
+        title="reflectances that are solved, the polynomial through all of them",
+        values=tuple(
+            (str(len(chosen)), {"reflectances": chosen, "degree": len(chosen) - 1}) for chosen in (TWO, THREE, FIVE)
         ),
     ),
     "degree": Factor(
         title="degree of the polynomial through five reflectances",
-        values=tuple(
-            (str(degree), {"reflectances": (0.1, 0.3, 0.5, 0.7, 0.9), "degree": degree}) for degree in range(5)
-        ),
+        values=tuple((str(degree), {"reflectances": FIVE, "degree": degree}) for degree in range(5)),
     ),
     "step": Factor(
         title="step of the march [s]",
-        values=tuple((f"{step:g}", {"step": step}) for step in (100.0, 300.0, 900.0)),
+        values=_values("step", 60.0, 150.0, 300.0, 600.0, 900.0),
+    ),
+    "cell_size": Factor(
+        title="size of the walls' cells over the usual",
+        values=_values("cell_size", 0.5, 1.0, 1.5, 2.0, 4.0),
     ),
     "slice_interval": Factor(
-        title="time between the slices that are kept [min]",
-        values=tuple((f"{minutes}", {"slice_interval": 60.0 * minutes}) for minutes in (5, 15, 30, 60, 120)),
+        title="time between the slices that are kept [s]",
+        values=_values("slice_interval", 300.0, 600.0, 900.0, 1800.0, 3600.0),
     ),
     "lead_in_days": Factor(
         title="lead-in before the image day [d]",
-        values=tuple((f"{days}", {"lead_in_days": float(days)}) for days in (0, 1, 2, 3, 4)),
+        values=_values("lead_in_days", 0.0, 1.0, 2.0, 3.0, 4.0),
+    ),
+    "precision": Factor(
+        title="precision of the tables",
+        values=_values("precision", "float32", "float16"),
     ),
     "sky": Factor(
         title="sky of the daylight, against the full solve under the default's",
-        values=tuple((name, {"sky": name}) for name in ("perez", "quadrants")),
+        values=_values("sky", "perez", "quadrants"),
     ),
 }
+COMBINATIONS: Mapping[str, Mapping[str, Any]] = {
+    f"{orientations}, {interpolation}, lobes {lobes:g} s, {len(chosen)} reflectances, step {step:g} s": {
+        "orientations": orientations, "interpolation": interpolation, "lobes": lobes, "reflectances": chosen,
+        "degree": len(chosen) - 1, "step": step,
+    }
+    for orientations, interpolation, lobes, chosen, step in (
+        ("report26", "barycentric", 0.0, THREE, 900.0),
+        ("report26", "barycentric", 3600.0, TWO, 900.0),
+        ("report26", "spline", 3600.0, TWO, 600.0),
+        ("report26", "spline", 1800.0, THREE, 300.0),
+        ("icosphere42", "spline", 3600.0, TWO, 900.0),
+        ("icosphere42", "spline", 1800.0, THREE, 600.0),
+        ("octahedron66", "spline", 1800.0, TWO, 600.0),
+        ("icosphere162", "barycentric", 0.0, THREE, 600.0),
+        ("icosphere162", "spline", 900.0, THREE, 300.0),
+    )
+}  # fmt: skip
 
 
 def plan_trials(presets: Iterable[str] | None = None, factors: Iterable[str] | None = None) -> list[Trial]:
@@ -82,7 +119,13 @@ def plan_trials(presets: Iterable[str] | None = None, factors: Iterable[str] | N
     trials = [_trial("preset", "", name, preset(name)) for name in chosen]
     for name in FACTORS if factors is None else dict.fromkeys(factors):
         if name not in FACTORS:
-            raise InputError("accuracy study", "factor", name, "unknown factor", f"use {', '.join(FACTORS)}")
+            raise InputError(
+                "accuracy study",
+                "factor",
+                name,
+                "unknown factor",
+                f"use {', '.join(FACTORS)}",
+            )
         trials += _turned(name)
     return trials + (_combinations() if factors is None else [])
 
@@ -90,33 +133,35 @@ def plan_trials(presets: Iterable[str] | None = None, factors: Iterable[str] | N
 def _turned(factor: str) -> list[Trial]:
     base = preset(BASELINE)
     return [
-        _trial("factor", factor, f"{factor} {label}", replace(base, **_settled(base, changes)), sky=base.sky)
+        _trial("factor", factor, f"{factor} {label}", _settled(base, changes), sky=base.sky)
         for label, changes in FACTORS[factor].values
     ]
 
 
-def _settled(base: BakeSettings, changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The changes, with slices no finer than the step that is asked for."""
+def _combinations() -> list[Trial]:
+    base = preset(BASELINE)
+    return [_trial("combination", "", name, _settled(base, changes)) for name, changes in COMBINATIONS.items()]
+
+
+def _settled(base: BakeSettings, changes: Mapping[str, Any]) -> BakeSettings:
+    """The baseline with the changes, its slices as coarse as the step that is asked for demands."""
     step = changes.get("step", base.step)
     interval = changes.get("slice_interval", base.slice_interval)
-    return {**changes, "slice_interval": max(interval, step)}
+    return replace(base, **{**changes, "slice_interval": step * math.ceil(interval / step)})
 
 
-def _combinations() -> list[Trial]:
-    """Orientations by reflectances by step, the default else."""
-    base = preset(BASELINE)
-    found = []
-    for orientations in ("report26", "icosphere42", "icosphere162"):
-        for reflectances in ((0.1, 0.9), THREE):
-            for step in (300.0, 900.0):
-                name = f"{orientations}, {len(reflectances)} reflectances, {step:g} s"
-                changes: dict[str, Any] = {
-                    "orientations": orientations, "reflectances": reflectances, "degree": len(reflectances) - 1,
-                    "step": step,
-                }  # fmt: skip
-                found.append(_trial("combination", "", name, replace(base, **changes)))
-    return found
-
-
-def _trial(group: str, factor: str, name: str, settings: BakeSettings, *, sky: str | None = None) -> Trial:
-    return Trial(group=group, factor=factor, name=name, settings=settings, sky=settings.sky if sky is None else sky)
+def _trial(
+    group: str,
+    factor: str,
+    name: str,
+    settings: BakeSettings,
+    *,
+    sky: str | None = None,
+) -> Trial:
+    return Trial(
+        group=group,
+        factor=factor,
+        name=name,
+        settings=settings,
+        sky=settings.sky if sky is None else sky,
+    )

@@ -19,6 +19,7 @@ from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import expose
 
 FINE_STEP = 60.0  # [s]
+FINE_CELLS = 0.5  # size of the walls' finite volumes over the usual [-]
 LONGEST_LEAD_IN = 4.0  # [days]
 
 
@@ -68,11 +69,12 @@ def solve_surfaces(
     record: np.ndarray,
     sky: str = "perez",
     convection: str = "mowitt",
+    cell_size: float = FINE_CELLS,
 ) -> FloatArray:
     """Temperatures (r, m) [K] of the surfaces at the samples `record` (r,), marched at the environment's step.
 
-    `ground` is the plane that the surfaces see. Surfaces of one wall type and reflectance are solved together, the
-    groups in threads.
+    `cell_size` is that of the walls' finite volumes over the usual [-]; `ground` is the plane that the surfaces see.
+    Surfaces of one wall type and reflectance are solved together, the groups in threads.
     """
     soil = ground_temperature(environment, ground, sky=sky)
     temperature = np.zeros((record.size, surfaces.normal.shape[0]))
@@ -82,7 +84,9 @@ def solve_surfaces(
         chosen = np.flatnonzero(group.ravel() == row)
         exposure = expose(environment, surfaces.normal[chosen], soil, sky=sky)
         wall, reflectance = surfaces.wall_types[int(alike[row, 0])], alike[row, 1:]
-        solved = solve_histories(environment, exposure, wall, reflectance, record, convection=convection)
+        solved = solve_histories(
+            environment, exposure, wall, reflectance, record, convection=convection, cell_size=cell_size
+        )
         temperature[:, chosen] = solved[:, :, 0]
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
