@@ -57,7 +57,7 @@ def accuracy_page(found: Accuracy, advice: Advice | None = None) -> Page:
     """The page, its plots included."""
     page = Page(f"Accuracy against time: {found.title}")
     page.text(
-        "Error is the temperature by the tables less that of the full solve of the very surface, in steps of one minute "
+        "Error is the temperature by the tables less that of the full solve of the very surface, in steps of a minute "
         "and cells of half the size under the same sky, every twelve minutes of the day: "
         f"{found.sampled}. Bake times are those of one day of all wall types on the machine that ran this, elapsed and "
         "summed over processors; the plots use the latter."
