@@ -79,16 +79,23 @@ def lobe_sources(environment: Environment, record: IntArray, *, interval: float,
     nodes[:, 1:] += within * later[:, None]
     lit = np.flatnonzero(np.any(nodes > 0.0, axis=0))
     sources = [within * today[:, None], within * (today * later)[:, None], nodes[:, lit] * ~today[:, None]]
-    clock = window.start + np.round(lit * interval / environment.step).astype(np.int64)
+    towards = sun_at(environment, window.start + lit * interval / environment.step)
     return LobeSources(
         interval=interval,
         node=lit,
-        direction=environment.sun_direction[np.minimum(clock, window.stop - 1)],
+        direction=towards,
         sun=environment.sun_direction[record],
         clock=(record - window.start) * environment.step,
         first=first,
         light=np.hstack([sources[0][:, lit[lit < count]], sources[1][:, lit[lit < count]], sources[2]]),
     )
+
+
+def sun_at(environment: Environment, position: FloatArray) -> FloatArray:
+    """Direction (k, 3) of the sun, unit, at positions (k,) among the environment's samples, whole or between."""
+    sample = np.arange(environment.sun_direction.shape[0])
+    direction = np.stack([np.interp(position, sample, axis) for axis in environment.sun_direction.T], axis=1)
+    return np.asarray(direction / np.linalg.norm(direction, axis=1, keepdims=True))
 
 
 def lobe_weights(sources: LobeSources, response: FloatArray) -> FloatArray:
