@@ -10,7 +10,7 @@ import pytest
 from small_world import DAY, town, town_features, write_town
 
 from sensorsim.cli import main
-from sensorsim.environment import build_environment
+from sensorsim.environment import build_environment, longest_lead_in
 from sensorsim.errors import InputError
 from sensorsim.frames import capture, read_plane, take_frame
 from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
@@ -19,7 +19,7 @@ from sensorsim.render import Renderer, World, station_camera
 from sensorsim.render.world import ground_plane
 from sensorsim.sensor import load_sensor
 from sensorsim.tables import bake_tables, preset, surface_temperature
-from sensorsim.tables.full_solve import distinct_surfaces, fine_environment, solve_surfaces
+from sensorsim.tables.full_solve import distinct_surfaces, fine_environment, fine_settings, solve_surfaces
 
 
 def test_error_is_what_the_tables_miss_of_the_full_solve_at_the_time() -> None:
@@ -30,8 +30,13 @@ def test_error_is_what_the_tables_miss_of_the_full_solve_at_the_time() -> None:
         fine_environment(world.weather, DAY),
     )
     surfaces = distinct.surfaces
-    record = environment.image_window.start + np.array([600, 601])
-    solved = solve_surfaces(environment, surfaces, ground=ground_plane(load_catalogue(), world.season), record=record)
+    solved = solve_surfaces(
+        environment,
+        surfaces,
+        ground=ground_plane(load_catalogue(), world.season),
+        record=environment.image_window.start + np.array([600, 601]),
+        settings=fine_settings(world.tables.settings),
+    )
     for at, exact in ((36000.0, solved[0]), (36030.0, solved.mean(axis=0))):
         fit = surface_temperature(world.tables, surfaces.normal, surfaces.wall_type, surfaces.reflectance, at)
         expected = np.abs(fit - exact)[distinct.row_of]
@@ -42,9 +47,8 @@ def test_error_is_what_the_tables_miss_of_the_full_solve_at_the_time() -> None:
 def test_finer_tables_miss_less() -> None:
     world = town()
     settings = preset("standard")
-    environment = build_environment(
-        world.weather, image_day=DAY, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(world.weather, DAY)
+    environment = build_environment(world.weather, image_day=DAY, lead_in_days=lead_in, step=settings.step)
     ground = ground_plane(load_catalogue(), world.season)
     finer = bake_tables(environment, world.assignment.wall_types, ground=ground, settings=settings)
     coarse, fine = (surface_fit_error(each, 36000.0) for each in (world, replace(world, tables=finer)))
@@ -89,7 +93,6 @@ def test_frame_has_the_plane_only_where_it_is_asked_for(monkeypatch: pytest.Monk
     np.testing.assert_array_equal(plane.data[surface < 0], -1.0)
     told = asked.settings["fit_error"]
     assert told["largest_of_all_surfaces_K"] == error.max()
-    assert told["full_solve_step_s"] == 60.0
     for name, other in plain.planes.items():
         np.testing.assert_array_equal(asked.plane(name).data, other.data)
 

@@ -26,7 +26,7 @@ from sensorsim.study.accuracy_surfaces import Sample, catalogue_sample, facing, 
 from sensorsim.study.accuracy_trials import FACTORS, Trial, plan_trials
 from sensorsim.study.pareto import advise, pareto_front
 from sensorsim.tables import PRESETS, BakeSettings, bake_tables, orientation_set
-from sensorsim.tables.full_solve import SurfaceSet, distinct_surfaces, fine_environment, solve_surfaces
+from sensorsim.tables.full_solve import SurfaceSet, distinct_surfaces, fine_environment, fine_settings, solve_surfaces
 from sensorsim.thermal import Season
 
 
@@ -36,7 +36,7 @@ def winter() -> Weather:
 
 
 def trial(settings: BakeSettings, name: str = "made") -> Trial:
-    return Trial(group="preset", factor="", name=name, settings=settings, sky=settings.sky)
+    return Trial(group="preset", factor="", name=name, settings=settings, truth=fine_settings(settings))
 
 
 def surfaces(normal: np.ndarray, reflectance: np.ndarray, rows: int = 2) -> SurfaceSet:
@@ -63,7 +63,7 @@ def at_slices(chosen: SurfaceSet, settings: BakeSettings) -> tuple[np.ndarray, n
     record = environment.image_window.start + np.round(TIMES[common] / settings.step).astype(int)
     ground = wall_types()[3]
     return fitted(tables, chosen)[common], solve_surfaces(
-        environment, chosen, ground=ground, record=record, cell_size=settings.cell_size
+        environment, chosen, ground=ground, record=record, settings=settings
     )
 
 
@@ -102,7 +102,7 @@ def test_coarser_sets_of_orientations_and_no_lobes_are_worse() -> None:
 def test_score_is_that_of_the_errors_and_names_the_worst_place() -> None:
     chosen = surfaces(random_normals(20), np.full(20, 0.3))
     day = day_of(chosen)
-    truth = solve_day(day, chosen, "perez", "mowitt")
+    truth = solve_day(day, chosen, COARSE)
     score, tables = score_trial(trial(COARSE), [day], {DAY: truth})
     error = np.abs(fitted(tables[DAY], chosen) - truth)
     at, row = np.unravel_index(error.argmax(), error.shape)
@@ -123,7 +123,7 @@ def test_score_is_that_of_the_errors_and_names_the_worst_place() -> None:
 def test_full_solve_of_the_fine_grid_starts_as_early_as_the_weather_allows() -> None:
     environment = fine_environment(winter(), DAY)
     assert environment.step == 60.0
-    assert (environment.image_start - environment.start).days == 4
+    assert (environment.image_start - environment.start).days == 5
 
 
 def test_distinct_surfaces_stand_for_all_of_the_scene() -> None:

@@ -11,8 +11,6 @@ from sensorsim.tables import PRESETS, BakeSettings, preset
     ("entry", "value"),
     [
         ("orientations", "icosphere43"),
-        ("orientations", "report10"),
-        ("orientations", "octahedron18"),
         ("interpolation", "cubic"),
         ("lobes", -1800.0),
         ("lobes", 30.0),

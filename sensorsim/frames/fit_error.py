@@ -6,7 +6,7 @@ from sensorsim.materials import load_catalogue
 from sensorsim.render import World
 from sensorsim.render.world import ground_plane
 from sensorsim.tables import surface_temperature
-from sensorsim.tables.full_solve import FINE_STEP, distinct_surfaces, fine_environment, solve_surfaces
+from sensorsim.tables.full_solve import FINE_STEP, distinct_surfaces, fine_environment, fine_settings, solve_surfaces
 from sensorsim.tables.orientations import FloatArray, IntArray
 
 
@@ -22,7 +22,7 @@ def surface_fit_error(world: World, time_of_day: float) -> FloatArray:
     before = min(int(position), environment.time.size - 2)
     solved = solve_surfaces(
         environment, surfaces, ground=ground_plane(load_catalogue(), world.season),
-        record=np.array([before, before + 1]), sky=settings.sky, convection=settings.convection,
+        record=np.array([before, before + 1]), settings=fine_settings(settings),
     )  # fmt: skip
     exact = solved[0] + (position - before) * (solved[1] - solved[0])
     fit = surface_temperature(

@@ -1,14 +1,25 @@
 """A scene under its weather, with all tables baked: what any number of sensors can be pointed at."""
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, fields
 from datetime import date
 
-from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
+import numpy as np
+
+from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in, place_mismatch
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
+from sensorsim.tables import (
+    BakeSettings,
+    ShadeTables,
+    SurfaceOffsets,
+    cached_tables,
+    near_surface_offsets,
+    resolve_classes,
+)
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.bake import Progress
+from sensorsim.tables.cache import inputs_digest
 from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
@@ -24,6 +35,8 @@ class World:
     season: Season
     assignment: Assignment
     tables: ShadeTables
+    offsets: SurfaceOffsets | None  # of near surfaces, where the settings ask for their exchange
+    inputs_sha256: str  # of all that decides its frames: weather, walls, settings, code, geometry, surfaces
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
@@ -44,18 +57,18 @@ def build_world(
     """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
-    environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
-    tables = cached_tables(
-        environment,
-        assignment.wall_types,
-        ground=ground_plane(catalogue, season),
-        settings=settings,
-        progress=progress,
-    )
+    ground = ground_plane(catalogue, season)
+    tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
+    tabled = inputs_digest(environment, assignment.wall_types, ground, settings)
+    offsets = None
+    if settings.exchange:
+        offsets = near_surface_offsets(
+            scene, assignment, environment, ground=ground, settings=settings, time_of_day=tables.time_of_day
+        )
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
@@ -66,5 +79,19 @@ def build_world(
         season=season,
         assignment=assignment,
         tables=tables,
+        offsets=offsets,
+        inputs_sha256=_digest(scene, assignment, f"{tabled} exchange {settings.exchange}"),
         warnings=() if mismatch is None else (mismatch,),
     )
+
+
+def _digest(scene: Scene, assignment: Assignment, tables: str) -> str:
+    """SHA-256 of the tables' inputs with the geometry and what its surfaces are made of."""
+    digest = hashlib.sha256(tables.encode())
+    for part in (scene.mesh, scene.surfaces, assignment):
+        for field in fields(part):
+            value = getattr(part, field.name)
+            if isinstance(value, np.ndarray):
+                digest.update(f"{field.name}{value.dtype}{value.shape}".encode())
+                digest.update(np.ascontiguousarray(value).tobytes())
+    return digest.hexdigest()

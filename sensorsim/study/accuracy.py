@@ -67,11 +67,10 @@ def study_accuracy(
     """Measure presets, factors and combinations over the days, all where None; see `plan_trials`."""
     trials = plan_trials(presets, factors)
     tell = _silent if progress is None else progress
-    skies = dict.fromkeys((trial.sky, trial.settings.convection) for trial in trials)
     truth = {}
-    for sky, convection in skies:
-        tell(f"full solve, {sky} sky", 0, len(trials))
-        truth[sky, convection] = {day.day: solve_day(day, day.sample.surfaces, sky, convection) for day in days}
+    for fine in dict.fromkeys(trial.truth for trial in trials):
+        tell(f"full solve, {fine.sky} sky", 0, len(trials))
+        truth[fine] = {day.day: solve_day(day, day.sample.surfaces, fine) for day in days}
     timed_bake(narrow(days[0], 1)[0], preset("report"))  # so that no trial pays for compiling
     scores: list[Score] = []
     frames: dict[str, float] = {}
@@ -79,25 +78,20 @@ def study_accuracy(
     for done, trial in enumerate(trials):
         tell(trial.name, done, len(trials))
         twin = _twin(trial, scores)
+        scope = scope_of(trial, days, truth[trial.truth])
         if twin is not None:
             scores.append(replace(twin, trial=trial))
             continue
-        scope = scope_of(trial, days, truth[trial.sky, trial.settings.convection])
         score, tables = score_trial(trial, scope.days, scope.truth, share=scope.share, scope=scope.words)
         scores.append(score)
         if trial.group == "preset":
-            spent, seen = _look(trial, scope, tables, backend)
-            frames.update({trial.name: spent} if seen else {})
+            frames[trial.name], seen = _look(trial, scope, tables, backend)
             images += seen
     tell("error map", len(trials), len(trials))
     return Accuracy(
-        title=title,
-        sampled=_sampled(days),
-        scores=tuple(scores),
-        frames=frames,
-        images=tuple(images),
-        map=_map(scores, days),
-    )
+        title=title, sampled=_sampled(days), scores=tuple(scores), frames=frames if images else {},
+        images=tuple(images), map=_map(scores, days),
+    )  # fmt: skip
 
 
 def scene_days(
@@ -166,7 +160,7 @@ def _map(scores: Sequence[Score], days: Sequence[StudyDay]) -> ErrorMap:
     )
     settings = score.trial.settings
     tables, _, _ = timed_bake(replace(day, sample=replace(day.sample, surfaces=surfaces)), settings)
-    error = fitted(tables, surfaces) - solve_day(day, surfaces, score.trial.sky, settings.convection)
+    error = fitted(tables, surfaces) - solve_day(day, surfaces, score.trial.truth)
     return ErrorMap(name=score.trial.name, wall=wall_words(score.worst.wall), day=day.day, error=error)
 
 

@@ -69,6 +69,7 @@ def true_world(world: World, day: StudyDay, temperature: FloatArray) -> World:
         lobes=None,
         ground_temperature=np.interp(TIMES, world.tables.time_of_day, world.tables.ground_temperature),
         settings=plain,
+        lead_in=(),
     )
     row_of = np.maximum(day.sample.row_of, 0)
     return replace(world, tables=tables, assignment=replace(world.assignment, wall_type=row_of))

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY, SECONDS_PER_HOUR
-from sensorsim.environment import Weather, build_environment
+from sensorsim.environment import Weather, build_environment, longest_lead_in
 from sensorsim.materials import WallType
 from sensorsim.render import World
 from sensorsim.study.accuracy_surfaces import Sample, facing
 from sensorsim.study.accuracy_trials import Trial
 from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
-from sensorsim.tables.full_solve import FINE_STEP, SurfaceSet, fine_environment, solve_surfaces
+from sensorsim.tables.full_solve import FINE_STEP, SurfaceSet, fine_environment, fine_settings, solve_surfaces
 from sensorsim.tables.orientations import FloatArray
 from sensorsim.tables.shade import shade
 
@@ -78,18 +78,18 @@ class Score:
     count: NDArray[np.int64]  # of errors by BINS
 
 
-def solve_day(day: StudyDay, surfaces: SurfaceSet, sky: str, convection: str) -> FloatArray:
-    """Temperatures (t, m) [K] of surfaces at TIMES, by the full solve."""
+def solve_day(day: StudyDay, surfaces: SurfaceSet, settings: BakeSettings) -> FloatArray:
+    """Temperatures (t, m) [K] of surfaces at TIMES, by the full solve under the sky and film of the settings."""
     environment = fine_environment(day.weather, day.day)
     record = environment.image_window.start + np.arange(TIMES.size) * round(SPACING / FINE_STEP)
-    return solve_surfaces(environment, surfaces, ground=day.ground, record=record, sky=sky, convection=convection)
+    fine = fine_settings(settings)
+    return solve_surfaces(environment, surfaces, ground=day.ground, record=record, settings=fine)
 
 
 def timed_bake(day: StudyDay, settings: BakeSettings) -> tuple[ShadeTables, float, float]:
     """Tables of all wall types of a day, baked anew, with elapsed and processor time [s]."""
-    environment = build_environment(
-        day.weather, image_day=day.day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(day.weather, day.day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(day.weather, image_day=day.day, lead_in_days=lead_in, step=settings.step)
     elapsed, processor = time.perf_counter(), time.process_time()
     tables = bake_tables(environment, day.sample.surfaces.wall_types, ground=day.ground, settings=settings)
     return tables, time.perf_counter() - elapsed, time.process_time() - processor

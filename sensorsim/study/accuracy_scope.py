@@ -13,6 +13,7 @@ from sensorsim.tables import BakeSettings, orientation_set
 from sensorsim.tables.orientations import FloatArray, IntArray
 
 MOST_WORK = 3e7  # columns times steps that a preset or a combination may march, half a minute of one processor
+USUAL_LEAD_IN = 2.0  # [days] that walls of their own lead-in take on the mean
 FACTOR_WALLS = 6  # wall types that one knob's turns are measured on
 
 
@@ -48,7 +49,8 @@ def scope_of(trial: Trial, days: Sequence[StudyDay], truth: Mapping[date, FloatA
 def work(settings: BakeSettings) -> float:
     """Columns times steps of the march that a bake of one wall type takes."""
     columns = orientation_set(settings.orientations).normal.shape[0] * len(settings.reflectances)
-    return float(columns * (settings.lead_in_days + 1.0) * SECONDS_PER_DAY / settings.step)
+    lead_in = USUAL_LEAD_IN if settings.lead_in_days is None else settings.lead_in_days
+    return float(columns * (lead_in + 1.0) * SECONDS_PER_DAY / settings.step)
 
 
 def narrow(day: StudyDay, count: int) -> tuple[StudyDay, IntArray]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from sensorsim.errors import InputError
 from sensorsim.tables import PRESETS, BakeSettings, preset
+from sensorsim.tables.full_solve import fine_settings
 
 BASELINE = "standard"  # that one knob at a time is turned away from
 TWO, THREE, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.1, 0.3, 0.5, 0.7, 0.9)
@@ -20,7 +21,7 @@ class Trial:
     factor: str  # the knob that is turned; empty but for a factor
     name: str  # unique; of a factor 'knob value'
     settings: BakeSettings
-    sky: str  # of the full solve that it is held against
+    truth: BakeSettings  # of the full solve that it is held against
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +81,7 @@ FACTORS: Mapping[str, Factor] = {
     ),
     "lead_in_days": Factor(
         title="lead-in before the image day [d]",
-        values=_values("lead_in_days", 0.0, 1.0, 2.0, 3.0, 4.0),
+        values=(("by wall", {"lead_in_days": None}), *_values("lead_in_days", 0.0, 1.0, 2.0, 4.0)),
     ),
     "precision": Factor(
         title="precision of the tables",
@@ -133,7 +134,7 @@ def plan_trials(presets: Iterable[str] | None = None, factors: Iterable[str] | N
 def _turned(factor: str) -> list[Trial]:
     base = preset(BASELINE)
     return [
-        _trial("factor", factor, f"{factor} {label}", _settled(base, changes), sky=base.sky)
+        _trial("factor", factor, f"{factor} {label}", _settled(base, changes), truth=base)
         for label, changes in FACTORS[factor].values
     ]
 
@@ -150,18 +151,6 @@ def _settled(base: BakeSettings, changes: Mapping[str, Any]) -> BakeSettings:
     return replace(base, **{**changes, "slice_interval": step * math.ceil(interval / step)})
 
 
-def _trial(
-    group: str,
-    factor: str,
-    name: str,
-    settings: BakeSettings,
-    *,
-    sky: str | None = None,
-) -> Trial:
-    return Trial(
-        group=group,
-        factor=factor,
-        name=name,
-        settings=settings,
-        sky=settings.sky if sky is None else sky,
-    )
+def _trial(group: str, factor: str, name: str, settings: BakeSettings, *, truth: BakeSettings | None = None) -> Trial:
+    truth = settings if truth is None else truth
+    return Trial(group=group, factor=factor, name=name, settings=settings, truth=fine_settings(truth))

@@ -9,10 +9,11 @@ from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables import BakeSettings, ShadeTables
-from sensorsim.tables.histories import solve_histories
+from sensorsim.tables.history import solve_histories
 from sensorsim.tables.orientations import FloatArray
 from sensorsim.tables.shade import shade
 from sensorsim.thermal import expose, ground_temperature
+from sensorsim.thermal.lead_in import lead_in_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -64,12 +65,11 @@ def full_solve(
         problem, remedy = "between the samples of the environment", f"use multiples of {environment.step:g} s"
         raise InputError("fit error", "time", surfaces.time_of_day[np.argmax(sample % 1.0)], problem, remedy)
     record, order = np.unique(environment.image_window.start + np.round(sample).astype(np.int64), return_inverse=True)
-    soil = ground_temperature(environment, ground, sky=settings.sky)
+    repeated = lead_in_of(ground, environment, own=settings.lead_in_days is None).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
     exposure = expose(environment, surfaces.normal, soil, sky=settings.sky)
     return [
-        solve_histories(environment, exposure, wall, surfaces.reflectance, record, convection=settings.convection)[
-            order
-        ]
+        solve_histories(environment, exposure, wall, surfaces.reflectance, record, settings=settings)[order]
         for wall in surfaces.wall_types
     ]
 

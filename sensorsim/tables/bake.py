@@ -13,13 +13,15 @@ from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, lookup_orientations
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
-from sensorsim.tables.histories import solve_histories, sun_response
+from sensorsim.tables.history import solve_histories
 from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, part_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
+from sensorsim.thermal.lead_in import lead_in_of
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -39,7 +41,9 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     normal = orientation_set(settings.orientations).normal
-    soil = ground_temperature(environment, ground, sky=settings.sky)
+    own = settings.lead_in_days is None
+    repeated = lead_in_of(ground, environment, own=own).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
     record = _slices(environment, settings)
     bake = _Bake(
         environment=environment,
@@ -62,6 +66,7 @@ def bake_tables(
         lobes=_lobes(bake.sources, rows, kept),
         ground_temperature=soil[record],
         settings=settings,
+        lead_in=tuple(lead_in_of(wall, environment, own=own) for wall in wall_types),
     )
 
 
@@ -87,14 +92,13 @@ class _Bake:
     def solve(self, wall: WallType) -> _Solved:
         """March one plain wall type."""
         temperature = solve_histories(
-            self.environment, self.exposure, wall, self.reflectances, self.record,
-            convection=self.settings.convection, cell_size=self.settings.cell_size,
-        )  # fmt: skip
+            self.environment, self.exposure, wall, self.reflectances, self.record, settings=self.settings
+        )
         if self.sources is None:
             return _Solved(temperature=temperature, weight=None)
         response = sun_response(
             self.environment, self.exposure, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
-            first=self.sources.first, convection=self.settings.convection, cell_size=self.settings.cell_size,
+            first=self.sources.first, settings=self.settings,
         )  # fmt: skip
         return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
 

@@ -9,7 +9,7 @@ import io
 import os
 import zipfile
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Any
@@ -22,6 +22,7 @@ from sensorsim.tables.bake import Progress, bake_tables
 from sensorsim.tables.coefficients import ShadeTables, lookup_orientations
 from sensorsim.tables.lobes import Lobes
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.lead_in import lead_in_of
 
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
@@ -51,6 +52,7 @@ def cached_tables(
             orientations=lookup_orientations(settings),
             lobes=Lobes(**{name: arrays[name] for name in _LOBES}) if settings.lobes else None,
             settings=settings,
+            lead_in=tuple(lead_in_of(wall, environment, own=settings.lead_in_days is None) for wall in wall_types),
             **{name: arrays[name] for name in _ARRAYS},
         )
     tables = bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
@@ -76,7 +78,8 @@ def inputs_digest(
         value = getattr(environment, field.name)
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
-    digest.update(repr((tuple(wall_types), ground, settings)).encode())
+    tabled = replace(settings, exchange=False)  # comes on top of the tables
+    digest.update(repr((tuple(wall_types), ground, tabled)).encode())
     package = Path(__file__).resolve().parent.parent
     for name in _CODE:
         source = package / name

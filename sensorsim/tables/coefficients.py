@@ -18,6 +18,7 @@ from sensorsim.tables.lobes import Lobes
 from sensorsim.tables.orientations import FloatArray, OrientationSet, orientation_set
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.spline import dense_layout, spline_matrix
+from sensorsim.thermal.lead_in import LeadIn
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,6 +46,7 @@ class ShadeTables:
     lobes: Lobes | None  # of the sun; None: the coefficients hold it too
     ground_temperature: FloatArray  # (t,) of the ground plane [K]
     settings: BakeSettings
+    lead_in: tuple[LeadIn, ...]  # of the wall types
 
     def at(self, time_of_day: float) -> Moment:
         """The tables at a time [s]: straight between slices, the sun of the moment where it stands."""

@@ -5,22 +5,23 @@ What a table's fit is measured against: nothing is interpolated between orientat
 
 import os
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from datetime import date, time
+from dataclasses import dataclass, replace
+from datetime import date
 
 import numpy as np
 
-from sensorsim.environment import Environment, Weather, build_environment
+from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in
 from sensorsim.materials import WallType
 from sensorsim.tables.assign import Assignment
-from sensorsim.tables.histories import solve_histories
+from sensorsim.tables.history import solve_histories
 from sensorsim.tables.orientations import FloatArray, IntArray
+from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import expose
+from sensorsim.thermal.lead_in import lead_in_of
 
 FINE_STEP = 60.0  # [s]
 FINE_CELLS = 0.5  # size of the walls' finite volumes over the usual [-]
-LONGEST_LEAD_IN = 4.0  # [days]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -55,38 +56,35 @@ def distinct_surfaces(normal: FloatArray, assignment: Assignment) -> Distinct:
 
 
 def fine_environment(weather: Weather, day: date) -> Environment:
-    """Environment of the full solve: steps of FINE_STEP after LONGEST_LEAD_IN, less where the weather begins later."""
-    before = (day - weather.start.date()).days - (weather.start.time() != time())
-    lead_in = LONGEST_LEAD_IN if weather.typical_year else min(before, LONGEST_LEAD_IN)
-    return build_environment(weather, image_day=day, lead_in_days=lead_in, step=FINE_STEP)
+    """Environment of the full solve: steps of FINE_STEP, and all the history that the weather has."""
+    return build_environment(weather, image_day=day, lead_in_days=longest_lead_in(weather, day), step=FINE_STEP)
+
+
+def fine_settings(settings: BakeSettings) -> BakeSettings:
+    """Settings of the full solve that a bake with `settings` stands for: its sky and film, the rest fine."""
+    return replace(
+        BakeSettings(), sky=settings.sky, convection=settings.convection, step=FINE_STEP, cell_size=FINE_CELLS
+    )
 
 
 def solve_surfaces(
-    environment: Environment,
-    surfaces: SurfaceSet,
-    *,
-    ground: WallType,
-    record: np.ndarray,
-    sky: str = "perez",
-    convection: str = "mowitt",
-    cell_size: float = FINE_CELLS,
+    environment: Environment, surfaces: SurfaceSet, *, ground: WallType, record: IntArray, settings: BakeSettings
 ) -> FloatArray:
     """Temperatures (r, m) [K] of the surfaces at the samples `record` (r,), marched at the environment's step.
 
-    `cell_size` is that of the walls' finite volumes over the usual [-]; `ground` is the plane that the surfaces see.
-    Surfaces of one wall type and reflectance are solved together, the groups in threads.
+    Of the settings sky, film, cells and lead-in count; `ground` is the plane that the surfaces see. Surfaces of one
+    wall type and reflectance are solved together, the groups in threads.
     """
-    soil = ground_temperature(environment, ground, sky=sky)
+    repeated = lead_in_of(ground, environment, own=settings.lead_in_days is None).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
     temperature = np.zeros((record.size, surfaces.normal.shape[0]))
     alike, group = np.unique(np.column_stack([surfaces.wall_type, surfaces.reflectance]), axis=0, return_inverse=True)
 
     def solve(row: int) -> None:
         chosen = np.flatnonzero(group.ravel() == row)
-        exposure = expose(environment, surfaces.normal[chosen], soil, sky=sky)
+        exposure = expose(environment, surfaces.normal[chosen], soil, sky=settings.sky)
         wall, reflectance = surfaces.wall_types[int(alike[row, 0])], alike[row, 1:]
-        solved = solve_histories(
-            environment, exposure, wall, reflectance, record, convection=convection, cell_size=cell_size
-        )
+        solved = solve_histories(environment, exposure, wall, reflectance, record, settings=settings)
         temperature[:, chosen] = solved[:, :, 0]
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:

@@ -38,13 +38,19 @@ class OrientationSet:
     scheme: str = "barycentric"  # one of SCHEMES
 
     def locate(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Orientations (m, 3) around unit normals (m, 3) and their weights (m, 3), which sum to one.
+        """Orientations (m, 3) around normals (m, 3) of any length and their weights (m, 3), which sum to one.
 
         By the scheme `barycentric` these are the corners of the triangle that holds the normal, by `closest` the three
-        closest, as in the report, each by the inverse of its squared distance.
+        closest, as in the report, each by the inverse of its squared distance. Raises InputError for a normal without
+        direction: zero, NaN or infinite.
         """
+        undirected = ~(np.all(np.isfinite(normal), axis=1) & np.any(normal != 0.0, axis=1))
+        if np.any(undirected):
+            row = int(np.argmax(undirected))
+            problem = f"the normal of row {row} has no direction"
+            raise InputError(self.name, "normal", normal[row].tolist(), problem, "mend the surface")
         if self.scheme == "closest":
-            return self._closest(normal)
+            return self._closest(_unit(normal))
         corner = np.zeros((normal.shape[0], 3), dtype=np.int64)
         weight = np.zeros((normal.shape[0], 3))
         for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):

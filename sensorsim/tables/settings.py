@@ -46,16 +46,16 @@ class BakeSettings:
     cell_size: float = 1.0  # of the walls' finite volumes over the usual
     slice_interval: float = 300.0  # [s] between the times that are kept
     precision: str = "float32"  # of the numbers that are kept, one of PRECISIONS
-    lead_in_days: float = 3.0  # before the image day
+    lead_in_days: float | None = None  # before the image day; None: by the walls' own time constants, see `lead_in`
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
+    exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
 
     def __post_init__(self) -> None:
         """Refuse what cannot be solved or fitted."""
         for entry, broken, remedy in (
             ("orientations", self.orientations not in LAYOUTS, f"use one of {', '.join(LAYOUTS)}"),
             ("interpolation", self.interpolation not in INTERPOLATIONS, f"use one of {', '.join(INTERPOLATIONS)}"),
-            ("orientations", self._too_few(), "use 26 or more of them with splines"),
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
             (
                 "lobes",
@@ -77,13 +77,15 @@ class BakeSettings:
             ),
             ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
             ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
-            ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
+            ("exchange", not isinstance(self.exchange, bool), "use True or False"),
+            (
+                "lead_in_days",
+                self.lead_in_days is not None and not 0 <= self.lead_in_days <= 365,
+                "use 0 to 365 days, or None",
+            ),
         ):
             if broken:
                 raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
-
-    def _too_few(self) -> bool:
-        return self.interpolation == "spline" and self.orientations in ("report10", "octahedron18")
 
     def to_dict(self) -> dict[str, Any]:
         """All settings by name."""
@@ -105,13 +107,13 @@ def _is_whole(whole: float, part: float) -> bool:
 
 PRESETS = {
     "draft": BakeSettings(orientations="report26", interpolation="barycentric", lobes=3600.0, step=600.0, cell_size=1.5,
-                          slice_interval=1200.0, lead_in_days=2.0),
+                          slice_interval=1200.0),
     # the choices of 1978: few orientations, the closest three, five reflectances and a quartic, quarters of the sky
     "report": BakeSettings(orientations="report26", interpolation="closest", lobes=0.0, reflectances=FIVE, degree=4,
                            slice_interval=900.0, sky="quadrants"),
     "standard": BakeSettings(),
     "reference": BakeSettings(orientations="icosphere642", interpolation="barycentric", lobes=300.0, reflectances=FIVE,
-                              degree=4, step=60.0, lead_in_days=4.0),
+                              degree=4, step=60.0),
 }  # fmt: skip
 
 

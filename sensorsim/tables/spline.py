@@ -11,6 +11,8 @@ import numpy as np
 
 from sensorsim.tables.orientations import FloatArray, orientation_set
 
+FEW = 26  # orientations, below which only what is constant and linear is taken as known
+
 
 def dense_layout(solved: str) -> str:
     """The set of orientations, so many that straight lines between them do, to which values at `solved` are led.
@@ -29,10 +31,10 @@ def spline_matrix(solved: str, dense: str) -> FloatArray:
     Where both sets share an orientation the value there is kept.
     """
     known, asked = orientation_set(solved).normal, orientation_set(dense).normal
-    form = _form(known)
-    size = form.shape[1]
+    size = 11 if known.shape[0] >= FEW else 4
+    form = _form(known)[:, :size]
     system = np.block([[_cubes(known, known), form], [form.T, np.zeros((size, size))]])
-    wanted = np.hstack([_cubes(asked, known), _form(asked)])
+    wanted = np.hstack([_cubes(asked, known), _form(asked)[:, :size]])
     return np.asarray((wanted @ np.linalg.pinv(system))[:, : known.shape[0]])
 
 

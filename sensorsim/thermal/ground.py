@@ -15,8 +15,13 @@ from sensorsim.thermal.natural import melting_depth, surface_boundary
 from sensorsim.thermal.paths import march_paths
 
 
-def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "perez") -> FloatArray:
-    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves."""
+def ground_temperature(
+    environment: Environment, soil: WallType, *, sky: str = "perez", repeated: bool = False
+) -> FloatArray:
+    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves.
+
+    It begins linear, or as the first day leaves it when that is `repeated`; melting snow never does.
+    """
     up = np.array([[0.0, 0.0, 1.0]])
     exposure = expose(environment, up, environment.air_temperature, sky=sky)  # a plane that faces up sees no ground
     absorbed = exposure.irradiance * (1.0 - environment.ground_albedo)[:, None]
@@ -27,7 +32,7 @@ def ground_temperature(environment: Environment, soil: WallType, *, sky: str = "
     samples = np.arange(environment.time.size)
     history = march_paths(
         soil, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples,
-        melting_depth=melting_depth(soil),
+        melting_depth=melting_depth(soil), repeated=repeated and melting_depth(soil) == 0.0,
     )  # fmt: skip
     temperature = history.exterior[:, 0, 0]
     return np.where(environment.ground_state == "snow", np.minimum(temperature, ZERO_CELSIUS), temperature)

@@ -7,7 +7,7 @@
 
 in vec3 from_camera;
 flat in vec4 record[4];
-flat in vec4 reflectance_record;
+flat in vec4 last_record;
 flat in int surface_id;
 flat in float temperature;
 
@@ -20,7 +20,7 @@ void main() {
 #if EMISSIVE
     Radiance source = emitted_radiance(temperature, record[1].w, normal);
 #else
-    Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
+    Radiance source = reflected_radiance(last_record.x, normal, record[3]);
 #endif
     quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
     id = surface_id;

@@ -10,16 +10,16 @@ in int surface;
 
 out vec3 from_camera;  // [m]
 flat out vec4 record[4];
-flat out vec4 reflectance_record;
+flat out vec4 last_record;
 flat out int surface_id;
 flat out float temperature;  // [K]
 
 void main() {
     for (int texel = 0; texel < 4; ++texel) record[texel] = surface_texel(surface, texel);
-    reflectance_record = surface_texel(surface, 4);
+    last_record = surface_texel(surface, 4);
     surface_id = surface;
     temperature = surface_temperature(
-        int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w, record[0].xyz);
+        int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w, record[0].xyz) + last_record.z;
     from_camera = position - view_frame.camera_position;
     gl_Position = view_frame.clip_from_camera * vec4(from_camera, 1.0);
 }
