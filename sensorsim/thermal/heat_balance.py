@@ -119,6 +119,7 @@ def outside_of(
     them need. Air has the pressure of the site's altitude; free convection that of the mean temperature.
     """
     pressure = pressure_at(environment.site.altitude)
+    mean = air_at(float(environment.air_temperature.mean()), pressure)
     return Outside(
         exposure.irradiance,
         exposure.longwave,
@@ -131,9 +132,10 @@ def outside_of(
             length=length,
             air=air_at(environment.air_temperature, pressure),
         ),
-        free_film_cubed(exposure.normal, air=air_at(float(environment.air_temperature.mean()), pressure)),
+        free_film_cubed(exposure.normal, air=mean),
         environment.air_temperature,
         emissivity,
+        free_colder=free_film_cubed(exposure.normal, air=mean, warmer=False),
     )
 
 

@@ -53,9 +53,9 @@ def surface_boundary(
     )  # fmt: skip
     if cover is not None and cover.kind in AERODYNAMIC:
         film = aerodynamic_film(environment, cover)[:, None] * np.ones(exposure.normal.shape[0])
-        outside = outside._replace(
-            film=film, free=np.zeros_like(outside.free), irradiance=cover.interception * exposure.irradiance
-        )
+        still = np.zeros_like(outside.free)
+        sunlight = cover.interception * exposure.irradiance
+        outside = outside._replace(film=film, free=still, free_colder=still, irradiance=sunlight)
     if cover is not None and cover.traffic_heat > 0.0:
         heat = cover.traffic_heat * _by_day(environment) / wall.emissivity  # the balance takes this share of long waves
         outside = outside._replace(longwave=outside.longwave + heat[:, None])
