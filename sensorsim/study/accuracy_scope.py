@@ -54,10 +54,14 @@ def work(settings: BakeSettings) -> float:
 
 
 def narrow(day: StudyDay, count: int) -> tuple[StudyDay, IntArray]:
-    """The day with the `count` wall types of the most surfaces, and the rows (m,) of the surfaces that are left."""
+    """The day with `count` wall types, and the rows (m,) of the surfaces that are left.
+
+    Those of the most surfaces; walls of buildings before plants and ground, whose errors are smaller.
+    """
     surfaces, sample = day.sample.surfaces, day.sample
     often = np.bincount(surfaces.wall_type, minlength=len(surfaces.wall_types))
-    walls = np.sort(np.argsort(-often, kind="stable")[:count])
+    built = np.array([wall.interior != "none" for wall in surfaces.wall_types])
+    walls = np.sort(np.lexsort((-often, ~built))[:count])
     place = np.full(often.size, -1)
     place[walls] = np.arange(walls.size)
     kept = np.flatnonzero(place[surfaces.wall_type] >= 0)
