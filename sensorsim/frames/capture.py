@@ -34,7 +34,7 @@ def take_frame(
     time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
     picture = renderer.render(camera, time_of_day, display=display, frame=frame)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
-    settings: dict[str, JSON] = {**request, **_outcome(picture), "request_sha256": inputs_sha256(request)}
+    settings: dict[str, JSON] = {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
     if not fit_error:
         return build_frame(picture.planes, settings)
     error = surface_fit_error(renderer.world, time_of_day)
@@ -92,18 +92,31 @@ def request_settings(
         "size": list(renderer.size),
         "samples": renderer.samples,
         "frame": frame,
+        "air": renderer.atmosphere,
         "camera": _camera_settings(renderer, camera),
         "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
     }
 
 
-def _outcome(picture: Picture) -> dict[str, JSON]:
+def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
+    """Name and terms of the air that a picture was seen through."""
+    air = picture.illumination.air
+    return {
+        "name": renderer.atmosphere,
+        "weight": air.weight.tolist(),
+        "coefficient_per_m": air.coefficient.tolist(),
+        "inverse_scale_height_per_m": air.inverse_scale_height.tolist(),
+        "source_W_m-2_sr-1": air.source.tolist(),
+    }
+
+
+def _outcome(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
     """What was found while drawing."""
     display = picture.display
     window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
     return {
         "display": {**window, "tone": display.tone, "gamma": display.gamma},
-        "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
+        "atmosphere": _air_settings(renderer, picture),
     }
 
 

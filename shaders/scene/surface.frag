@@ -6,8 +6,12 @@
 #include "radiance/reflected.glsl"
 
 in vec3 from_camera;
+in vec4 extinction;
 flat in vec4 record[4];
 flat in vec4 last_record;
+#if EMISSIVE
+flat in vec4 gloss_record;
+#endif
 flat in int surface_id;
 flat in float temperature;
 
@@ -18,10 +22,11 @@ void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
 #if EMISSIVE
-    Radiance source = emitted_radiance(temperature, record[1].w, normal);
+    Radiance source = emitted_radiance(temperature, record[1].w, normal, from_camera / range, gloss_record.xy);
 #else
     Radiance source = reflected_radiance(last_record.x, normal, record[3]);
 #endif
-    quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
+    Radiance seen = apparent_radiance(source, range, from_camera.z, extinction, from_camera / range);
+    quantities = vec4(seen, temperature, range, 0.0);
     id = surface_id;
 }
