@@ -72,7 +72,9 @@ def true_world(world: World, day: StudyDay, temperature: FloatArray) -> World:
         lead_in=(),
     )
     row_of = np.maximum(day.sample.row_of, 0)
-    return replace(world, tables=tables, assignment=replace(world.assignment, wall_type=row_of))
+    return replace(
+        world, tables=tables, assignment=replace(world.assignment, wall_types=tables.wall_types, wall_type=row_of)
+    )
 
 
 def compare(
