@@ -15,7 +15,7 @@ from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, lookup_o
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
 from sensorsim.tables.history import solve_histories
 from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
-from sensorsim.tables.mixture import mix_rises, mix_temperatures, part_reflectances
+from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.sun_response import sun_response
@@ -105,7 +105,7 @@ class _Bake:
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
         """Fit any wall type, from its parts where it is mixed."""
         refl, degree = self.reflectances, self.settings.degree
-        own = part_reflectances(wall, refl) if wall.parts else refl[None]
+        own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
         plain = [solved[part] for part in _plain_walls(wall)]
         parts = [
             _at(history.temperature, refl, row) if wall.parts else history.temperature

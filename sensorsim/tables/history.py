@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from sensorsim.environment import Environment
-from sensorsim.materials import WallType, part_reflectance
-from sensorsim.tables.mixture import mix_temperatures, part_reflectances
+from sensorsim.materials import WallType
+from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
@@ -67,7 +67,7 @@ def solve_histories(
     if wall.parts:
         parts = [
             solve_histories(environment, exposure, part.wall, own, record, settings=settings)
-            for part, own in zip(wall.parts, part_reflectances(wall, reflectances), strict=True)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectances), strict=True)
         ]
         return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
@@ -103,14 +103,11 @@ def _surfaces_of(
 ) -> FloatArray:
     """Temperatures (t, m) [K] of surfaces of one wall type; those of a mixture are joined as `mixture` does."""
     if wall.parts:
-        mean = sum(part.share * part.reflectance for part in wall.parts)
-        total = sum(part.share * part.wall.emissivity for part in wall.parts)
-        fourth = np.zeros(exposure.irradiance.shape)
-        for part in wall.parts:
-            own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectance])
-            temperature = _surfaces_of(environment, exposure, part.wall, own, settings)
-            fourth += part.share * part.wall.emissivity / total * temperature**4
-        return np.asarray(fourth**0.25)
+        parts = [
+            _surfaces_of(environment, exposure, part.wall, own, settings)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectance), strict=True)
+        ]
+        return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
     outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
     count, stride = environment.time.size, round(settings.slice_interval / environment.step)
