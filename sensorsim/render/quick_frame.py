@@ -72,8 +72,8 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
-    def draw(self, camera: Camera) -> NDArray[np.float32]:
-        """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen."""
+    def draw(self, camera: Camera) -> None:
+        """Draw what the camera sees, into the target."""
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
         self.target.clear()
@@ -91,6 +91,12 @@ class QuickFrame:
                 self.backgrounds[horizon].draw()
         self.target.framebuffer.scissor = (0, 0, *self.target.size)
         self.ctx.depth_func = "<"
+
+    def read(self) -> NDArray[np.float32]:
+        """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen.
+
+        The array is the same each time.
+        """
         self.target.texture("radiance").read_into(self.stored)
         return self.stored
 
