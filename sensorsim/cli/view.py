@@ -110,7 +110,7 @@ def _sensors(chosen: str) -> dict[str, Sensor]:
 
 
 def _place(at: str | None, weather: str | None, level: str) -> Place:
-    """Level, weather and day; without a time the day that the weather is for, without both the first that is shipped."""
+    """Level, weather and day: without a time the weather's own day, without both the first that is shipped."""
     shipped = shipped_days()
     if at is not None:
         day = read_moment(at).date()

@@ -1,8 +1,10 @@
 """From keys to the next state: what a press does at once, and what a moment of holding keys does. Pure functions."""
 
+import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import date
+from typing import Any
 
 from sensorsim.render import Camera
 from sensorsim.scene import LEVELS
@@ -34,7 +36,7 @@ class Inputs:
     pressed: tuple[str, ...] = ()  # keys that went down
     drag: tuple[float, float] = (0.0, 0.0)  # of the picture, right and down [pixels]
     wheel: float = 0.0  # notches over the picture
-    stick: Motion = Motion()
+    stick: Motion = field(default_factory=Motion)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -57,7 +59,8 @@ def press(state: ViewState, key: str, seen: Seen) -> ViewState:
         number = int(action.removeprefix("sensor_"))
         return with_sensor(state, seen.sensors[number - 1]) if number <= len(seen.sensors) else state
     if action in _SWITCHES:
-        return replace(state, **{action: not getattr(state, action)})
+        switched: dict[str, Any] = {action: not getattr(state, action)}
+        return replace(state, **switched)
     if action in _DISPLAY:
         return adjust(state, action, seen)
     if action in _PRESS:
@@ -79,7 +82,7 @@ def advance(state: ViewState, inputs: Inputs, seen: Seen, seconds: float) -> Vie
     motion = motion_of(inputs.held) + inputs.stick
     camera = drag(state.camera, *inputs.drag, seen.width) if any(inputs.drag) else state.camera
     if not {"LEFT_CONTROL", "RIGHT_CONTROL"}.isdisjoint(inputs.held):
-        camera = zoom(camera, 0.9**inputs.wheel)
+        camera = zoom(camera, math.pow(0.9, inputs.wheel))
     else:
         state = replace(state, speed=wheel_speed(state.speed, inputs.wheel))
     orbit = None if any(inputs.drag) else state.orbit

@@ -43,7 +43,7 @@ def day_strip(environment: Environment, count: int) -> FloatArray:
 
 def sun_times(environment: Environment) -> tuple[float | None, float | None]:
     """Sunrise and sunset [s] of the image day, to the minute; None where the sun does not rise or set."""
-    minute = np.arange(0.0, SECONDS_PER_DAY + 60.0, 60.0)
+    minute = np.linspace(0.0, SECONDS_PER_DAY, 1441)
     up = _elevation(environment, minute) > 0.0
     rises, sets = np.flatnonzero(up[1:] & ~up[:-1]), np.flatnonzero(~up[1:] & up[:-1])
     return (

@@ -110,7 +110,7 @@ class Gui:
         if width == 0 or height == 0:
             return
         target.use()
-        target.viewport, target.scissor = (0, 0, width, height), None
+        target.viewport = target.scissor = (0, 0, width, height)
         target.clear(0.05, 0.05, 0.06, 1.0)
         self._block.write(PANEL.pack(scale=np.array([2.0 / width, -2.0 / height, -1.0, 1.0])))
         self._block.bind_to_uniform_block(PANEL.binding)
@@ -118,7 +118,7 @@ class Gui:
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         for commands in data.cmd_lists:
             self._draw_list(target, commands, height)
-        target.scissor = None
+        target.scissor = (0, 0, width, height)
 
     def _draw_list(self, target: moderngl.Framebuffer, commands: Any, height: int) -> None:
         corners = ctypes.string_at(commands.vtx_buffer.data_address(), commands.vtx_buffer.size() * imgui.VERTEX_SIZE)

@@ -64,9 +64,9 @@ HELP: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
             ("wheel", "speed"),
             ("Shift", "five times as fast"),
             ("Z X, Ctrl + wheel", "narrower, wider field of view"),
-            ("O", "circle what is in the middle, or fly again"),
+            ("O", "circle the middle, or fly again"),
             ("C", "next camera of the scene"),
-            ("gamepad", "sticks fly and look, triggers sink and climb"),
+            ("gamepad", "sticks fly, look; triggers down, up"),
         ),
     ),
     (
@@ -99,8 +99,8 @@ HELP: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
             ("F12", "picture as PNG with its settings"),
             ("F11", "planes as EXR"),
             ("F10", "this window as PNG"),
-            ("I M Tab H", "probe, symbols, panels, this page"),
-            ("Esc, Ctrl + Q", "close a page, quit"),
+            ("I M Tab", "probe, symbols, panels on or off"),
+            ("H, Esc, Ctrl + Q", "this page, close it, quit"),
         ),
     ),
 )

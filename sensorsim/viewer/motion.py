@@ -50,7 +50,7 @@ def fly(camera: Camera, motion: Motion, speed: float, seconds: float) -> Camera:
     angle = look_step(camera, seconds)
     moved = replace(camera, position=kept_in(camera.position + distance * way))
     turned = turn(moved, motion.yaw * angle, motion.pitch * angle)
-    return zoom(turned, 0.5 ** (motion.zoom * seconds))
+    return zoom(turned, _zoom_factor(motion, seconds))
 
 
 def look_step(camera: Camera, seconds: float) -> float:
@@ -71,7 +71,7 @@ def turn(camera: Camera, yaw: float, pitch: float) -> Camera:
 
 
 def drag(camera: Camera, right: float, down: float, width: float) -> Camera:
-    """The camera after the picture, `width` pixels wide, was dragged by pixels: what was under the mouse stays there."""
+    """The camera after the picture, `width` pixels wide, was dragged by pixels: what is under the mouse stays."""
     half = math.radians(0.5 * camera.horizontal_field_of_view)
     angle = math.degrees(2.0 * math.tan(half) / max(width, 1.0))
     return turn(camera, -right * angle, down * angle)
@@ -95,7 +95,7 @@ def circle(camera: Camera, target: FloatArray, motion: Motion, speed: float, sec
     kept = kept_in(np.asarray(place, dtype=np.float64))
     if float(np.linalg.norm(kept[:2] - target[:2])) < 1e-3:
         return camera
-    return zoom(look_at(kept, target, camera.horizontal_field_of_view), 0.5 ** (motion.zoom * seconds))
+    return zoom(look_at(kept, target, camera.horizontal_field_of_view), _zoom_factor(motion, seconds))
 
 
 def zoom(camera: Camera, factor: float) -> Camera:
@@ -104,9 +104,14 @@ def zoom(camera: Camera, factor: float) -> Camera:
     return replace(camera, horizontal_field_of_view=field)
 
 
+def _zoom_factor(motion: Motion, seconds: float) -> float:
+    """Half the field in a second."""
+    return math.pow(0.5, motion.zoom * seconds)
+
+
 def wheel_speed(speed: float, notches: float) -> float:
     """Speed [m s-1] after notches of the wheel: a quarter more for each."""
-    return max(SPEEDS[0], min(SPEEDS[1], speed * 1.25**notches))
+    return max(SPEEDS[0], min(SPEEDS[1], speed * math.pow(1.25, notches)))
 
 
 def point_ahead(camera: Camera, distance: float | None) -> FloatArray:

@@ -11,6 +11,7 @@ from sensorsim.viewer.palettes import Colours
 from sensorsim.viewer.symbology import Symbols
 
 Box = tuple[float, float, float, float]  # left, top, width, height [pixels]
+KEY_WIDTH = 160.0  # of the first column of the help page [pixels]
 HINT = (
     "W A S D  fly     Q E  down, up     drag the mouse  look around     wheel  speed",
     "hold  ,  or  .  to change the hour     1 2 3  sensors     H  all keys",
@@ -46,23 +47,24 @@ def _text(draw: Any, at: tuple[float, float], text: str, anchor: tuple[float, fl
 
 
 def draw_scale(box: Box, colours: Colours, values: FloatArray, unit: str) -> None:
-    """A bar of a picture's colours with what they mean, on its right side, half way down; black below."""
+    """A bar of a picture's colours with what they mean, on its left side, half way down; black below."""
     draw = imgui.get_background_draw_list()
     height, width = min(220.0, 0.4 * box[3]), 14.0
-    right, top = box[0] + box[2] - 12.0, box[1] + 0.5 * (box[3] - height)
+    left, top = box[0] + 12.0, box[1] + 0.5 * (box[3] - height)
+    right = left + width
     steps = 64
     for step in range(steps):
         red, green, blue = (float(part) / 255.0 for part in colours[255 - step * 255 // (steps - 1)])
         upper = top + height * step / steps
         draw.add_rect_filled(
-            imgui.ImVec2(right - width, upper), imgui.ImVec2(right, upper + height / steps + 1.0),
+            imgui.ImVec2(left, upper), imgui.ImVec2(right, upper + height / steps + 1.0),
             colour(red, green, blue),
         )  # fmt: skip
-    draw.add_rect(imgui.ImVec2(right - width, top), imgui.ImVec2(right, top + height), colour(0.55, 1.0, 0.6))
+    draw.add_rect(imgui.ImVec2(left, top), imgui.ImVec2(right, top + height), colour(0.55, 1.0, 0.6))
     for index, value in enumerate(values):
         y = top + height * (1.0 - index / (len(values) - 1))
-        _text(draw, (right - width - 6.0, y), scale_text(float(value), unit), (1.0, 0.5))
-    _text(draw, (right, top - 8.0), unit, (1.0, 1.0))
+        _text(draw, (right + 6.0, y), scale_text(float(value), unit), (0.0, 0.5))
+    _text(draw, (left, top - 10.0), unit, (0.0, 1.0))
 
 
 def scale_text(value: float, unit: str) -> str:
@@ -88,7 +90,7 @@ def draw_notes(box: Box, lines: Sequence[str], *, at_top: bool) -> None:
 
 def help_page(box: Box) -> None:
     """All keys, in two columns."""
-    width, height = min(860.0, box[2] - 20.0), min(430.0, box[3] - 20.0)
+    width, height = min(940.0, box[2] - 20.0), min(430.0, box[3] - 20.0)
     imgui.set_next_window_pos(imgui.ImVec2(box[0] + 0.5 * (box[2] - width), box[1] + 0.5 * (box[3] - height)))
     imgui.set_next_window_size(imgui.ImVec2(width, height))
     imgui.set_next_window_bg_alpha(0.93)
@@ -99,8 +101,9 @@ def help_page(box: Box) -> None:
             for title, rows in column:
                 imgui.separator_text(title)
                 for keys, meaning in rows:
+                    start = imgui.get_cursor_pos_x()
                     imgui.text_colored(imgui.ImVec4(0.55, 1.0, 0.6, 1.0), keys)
-                    imgui.same_line(150.0 if column is HELP[:2] else 130.0)
+                    imgui.same_line(start + KEY_WIDTH)
                     imgui.text(meaning)
         imgui.end_table()
     imgui.end()

@@ -62,7 +62,10 @@ def time_strip(state: ViewState, facts: Facts, left: float, top: float, width: f
     if imgui.button("Stop" if state.playing else "Play", imgui.ImVec2(52.0, 0.0)):
         state = replace(state, playing=not state.playing)
     imgui.same_line()
+    rise, down = ("never" if time is None else clock_text(time) for time in facts.sun)
     imgui.text(f"{clock_text(state.time_of_day)} local standard time, {facts.baked.day.isoformat()}")
+    imgui.same_line()
+    imgui.text_disabled(f"  sun up {rise}, down {down}")
     imgui.same_line(width - 250.0)
     imgui.set_next_item_width(140.0)
     names = [f"{speed / 60.0:g} min each s" if speed > 1.0 else "real time" for speed in PLAY_SPEEDS]
@@ -147,14 +150,16 @@ def adjust_gamma(state: ViewState, sensor: str, facts: Facts, gamma: float) -> V
 
 def _window(display: DisplaySettings) -> DisplaySettings:
     """Sliders of a gain and level held by hand, over a tenth to ten times what they are."""
-    assert display.level is not None and display.span is not None
+    assert display.level is not None
+    assert display.span is not None
     flags = imgui.SliderFlags_.logarithmic
     changed, gain = imgui.slider_float(
         "gain", 1.0 / display.span, 0.1 / display.span, 10.0 / display.span, "%.3g", flags
     )
     if changed and gain > 0.0:
         display = replace(display, span=1.0 / gain)
-    assert display.level is not None and display.span is not None
+    assert display.level is not None
+    assert display.span is not None
     low, high = display.level - display.span, display.level + display.span
     changed, level = imgui.slider_float("level", display.level, low, high, "%.4g")
     return replace(display, level=level) if changed else display

@@ -23,7 +23,8 @@ class Probe:
     surface: int | None  # row of the scene's surfaces
     feature: str  # number and description
     role: str  # roof, wall, bottom or plane
-    wall_type: str  # with the condition behind it
+    wall_type: str
+    interior: str  # condition behind the surface, empty where there is no room
     word: str  # four-digit material word of the scene, may be empty
     reflectance: float | None  # solar [-]
     emissivity: float | None  # 8-14 um [-]
@@ -53,7 +54,8 @@ def probe_pixel(world: World, picture: Picture, column: int, row: int) -> Probe 
         surface=surface if seen else None,
         feature="sky" if feature is None else f"{feature.number} {feature.description}".strip(),
         role=str(scene.surfaces.role[surface]) if seen else "",
-        wall_type="" if wall is None else f"{wall.name}, inside {wall.interior}",
+        wall_type="" if wall is None else wall.name,
+        interior="" if wall is None or wall.interior == "none" else wall.interior,
         word=str(scene.surfaces.word[surface]) if seen else "",
         reflectance=float(assignment.reflectance[surface]) if seen else None,
         emissivity=float(assignment.emissivity[surface]) if seen else None,

@@ -15,7 +15,8 @@ def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
     values = (
         ("feature", _short(probe.feature, 26)),
         ("part", f"{probe.role} {probe.word}".strip()),
-        ("wall type", _short(probe.wall_type, 26)),
+        ("material", _short(probe.wall_type, 26)),
+        ("inside", probe.interior),
         ("reflects", _number(probe.reflectance, "{:.2f} of sunlight")),
         ("emits", _number(probe.emissivity, "{:.3f} of a black body")),
         ("surface", _kelvin(probe.temperature)),
@@ -29,9 +30,9 @@ def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
 
 def probe_panel(probe: Probe, day: tuple[FloatArray, FloatArray] | None, now: float, right: float, top: float) -> None:
     """The window, its upper right corner at a place; `day` is times [s] and temperatures [K], `now` the clock [s]."""
-    imgui.set_next_window_pos(imgui.ImVec2(right - WIDTH - 8.0, top + 8.0))
+    imgui.set_next_window_pos(imgui.ImVec2(right - WIDTH - 8.0, top + 62.0))
     imgui.set_next_window_size(imgui.ImVec2(WIDTH, 0.0))
-    imgui.set_next_window_bg_alpha(0.72)
+    imgui.set_next_window_bg_alpha(0.85)
     plain = imgui.WindowFlags_.no_title_bar | imgui.WindowFlags_.no_inputs | imgui.WindowFlags_.no_resize
     imgui.begin("probe", None, plain | imgui.WindowFlags_.no_focus_on_appearing)
     plain_rows(probe_rows(probe))

@@ -21,7 +21,7 @@ from sensorsim.viewer.probe_panel import probe_panel
 from sensorsim.viewer.recording import Recording
 from sensorsim.viewer.stage import Shot, Stage, picture_tone
 from sensorsim.viewer.state import Place, ViewState
-from sensorsim.viewer.symbology import Status, symbols
+from sensorsim.viewer.symbology import Status, polarity_text, symbols
 from sensorsim.viewer.window import Events, Window
 
 STRIP_STEPS = 192  # of the strip of day and night
@@ -109,7 +109,7 @@ class Screen:
         extra = [name for name, on in (("REC", state.recording), ("REPLAY", state.replaying)) if on]
         extra += ["ORBIT"] if state.orbit is not None else []
         extra += ["EQUALISED"] if shown.tone != "linear" else []
-        level, span = shown.level or 0.0, shown.span or 1.0
+        level, span, band = shown.level or 0.0, shown.span or 1.0, shot.sensor.band.wavelength
         if table is not None:
             ends = np.clip([level - span / 2, level, level + span / 2], table.radiance[0], table.radiance[-1])
             cold, middle, warm = table.apparent_temperature(ends)
@@ -117,7 +117,8 @@ class Screen:
         else:
             gain, text = f"{span:.3g} WIDE", f"{level:.3g} W/(m2 sr)"
         return Status(
-            sensor=f"{shot.sensor.name}  {shot.sensor.band.name}", polarity=shown.polarity,
+            sensor=f"{shot.sensor.name}  {1e6 * band[0]:.3g}-{1e6 * band[-1]:.3g} um",
+            polarity=polarity_text(shown.polarity, emissive=table is not None),
             automatic=asked.is_automatic, gain=gain, level=text, range=centre_range(shot),
             clock=f"{self.world.tables.day.isoformat()}  {clock_text(state.time_of_day)} LST",
             place=(float(latitude), float(longitude), float(camera.position[2])), extra=tuple(extra),

@@ -93,7 +93,8 @@ def with_gain(display: DisplaySettings, shown: DisplaySettings, steps: float) ->
 def with_level(display: DisplaySettings, shown: DisplaySettings, steps: float) -> DisplaySettings:
     """Level raised by steps of the window's width, held by hand from then on: a higher level is a darker picture."""
     held = display if not display.is_automatic else other_gain(display, shown)
-    assert held.level is not None and held.span is not None
+    assert held.level is not None
+    assert held.span is not None
     return replace(held, level=held.level + steps * LEVEL_STEP * held.span)
 
 

@@ -33,7 +33,7 @@ class Status:
     """What the corner texts tell."""
 
     sensor: str
-    polarity: str  # white-hot or black-hot
+    polarity: str  # WHT HOT and the like
     automatic: bool
     gain: str
     level: str
@@ -59,7 +59,7 @@ def symbols(camera: Camera, size: tuple[float, float], status: Status) -> Symbol
 
 def heading_tape(yaw: float, width: float) -> Symbols:
     """A tape of headings around the one flown, 60 degrees wide, at the top of a picture."""
-    half, top, span = 0.2 * width, 30.0, 30.0
+    half, top, span = 0.18 * width, 30.0, 30.0
     middle = 0.5 * width
     lines = [Line(start=(middle - half, top), end=(middle + half, top))]
     labels = [Label(at=(middle, top + 13.0), text=f"{round(yaw) % 360:03d}", anchor=(0.5, 0.0))]
@@ -102,6 +102,13 @@ def pitch_ladder(camera: Camera, size: tuple[float, float]) -> Symbols:
     return tuple(lines), tuple(labels)
 
 
+def polarity_text(polarity: str, *, emissive: bool) -> str:
+    """How the picture's greys run, in a FLIR's words, or for reflected light in a television's."""
+    if emissive:
+        return "WHT HOT" if polarity == "white-hot" else "BLK HOT"
+    return "POSITIVE" if polarity == "white-hot" else "NEGATIVE"
+
+
 def _reticle(size: tuple[float, float]) -> Symbols:
     """A cross with an open middle."""
     x, y = 0.5 * size[0], 0.5 * size[1]
@@ -114,8 +121,7 @@ def _reticle(size: tuple[float, float]) -> Symbols:
 def _corners(camera: Camera, size: tuple[float, float], status: Status) -> tuple[Label, ...]:
     width, height = size
     latitude, longitude, up = status.place
-    polarity = "WHT HOT" if status.polarity == "white-hot" else "BLK HOT"
-    upper = (status.sensor.upper(), f"{polarity}  {'AUTO' if status.automatic else 'MAN'}", *status.extra)
+    upper = (status.sensor.upper(), f"{status.polarity}  {'AUTO' if status.automatic else 'MAN'}", *status.extra)
     lower_left = (
         status.clock,
         f"{abs(latitude):.5f} {'N' if latitude >= 0 else 'S'}  {abs(longitude):.5f} {'E' if longitude >= 0 else 'W'}",

@@ -51,9 +51,9 @@ class Viewer:
     def __init__(self, world: World, state: ViewState, options: ViewerOptions) -> None:
         self.state, self.options = state, options
         self.window = Window(f"sensorsim: {named(world.scene.name)}", options.size)
-        self.gui = Gui(self.window.ctx)
+        with self.window.ctx:
+            self.gui = Gui(self.window.ctx)
         self.screen = Screen(self.gui, world)
-        self.window.ctx.__exit__(None, None, None)
         self.stage = Stage(world, options.sensors, options.backend)
         self.baker = Baker(options.build)
         self.baked = self.asked = state.place

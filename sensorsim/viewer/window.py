@@ -42,7 +42,8 @@ class _Loader:
 
     def load_opengl_function(self, name: str) -> int:
         """Address of an OpenGL function, 0 where there is none of that name."""
-        return glfw.get_proc_address(name) or 0
+        address: Any = glfw.get_proc_address(name)
+        return int(getattr(address, "value", address) or 0)
 
     def __enter__(self) -> "_Loader":
         glfw.make_context_current(self._window)
@@ -50,7 +51,8 @@ class _Loader:
 
     def __exit__(self, *_: object) -> None:
         """Leave no context current: those off screen may be of another kind, and the two do not share a thread."""
-        glfw.make_context_current(None)
+        nothing: Any = None
+        glfw.make_context_current(nothing)
 
     def release(self) -> None:
         """The window gives its context back itself."""
@@ -61,7 +63,7 @@ class Window:
 
     def __init__(self, title: str, size: tuple[int, int]) -> None:
         self.problems: list[str] = []
-        glfw.set_error_callback(lambda code, text: self.problems.append(text.decode("utf-8", "replace")))
+        glfw.set_error_callback(self._on_error)
         if not glfw.init():
             raise GraphicsError(f"no window: {self._problem()}. Remedy: {_REMEDY}")
         for hint, value in (
@@ -124,6 +126,9 @@ class Window:
         glfw.set_mouse_button_callback(self._window, self._on_button)
         glfw.set_scroll_callback(self._window, self._on_wheel)
         glfw.set_window_focus_callback(self._window, self._on_focus)
+
+    def _on_error(self, _code: int, text: Any) -> None:
+        self.problems.append(text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text))
 
     def _on_key(self, _window: Any, code: int, _scancode: int, action: int, _mods: int) -> None:
         name = self._names.get(code)
