@@ -86,12 +86,14 @@ def view(
 
 
 def _window_parts() -> tuple[Any, Any]:
-    """The parts that need the extra."""
+    """The parts that need the extra and a display."""
     try:
+        from sensorsim.viewer import window
         from sensorsim.viewer.viewer import ViewerOptions, run_viewer
     except ImportError as error:
         problem = f"{error.name} is not installed" if error.name else str(error)
         raise InputError("sensorsim view", "extra", "viewer", problem, EXTRA) from error
+    window.check_display()
     return run_viewer, ViewerOptions
 
 

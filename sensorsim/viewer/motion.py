@@ -87,9 +87,10 @@ def circle(camera: Camera, target: FloatArray, motion: Motion, speed: float, sec
     step = math.degrees(speed * seconds * (FAST if motion.fast else 1.0) / distance)
     azimuth = math.degrees(math.atan2(away[0], away[1])) - step * motion.right
     height = math.degrees(math.asin(max(-1.0, min(1.0, away[2] / distance)))) + step * motion.up
-    height = max(-STEEPEST, min(STEEPEST - 4.0, height))
     distance *= math.exp(-motion.forward * seconds * (2.0 if motion.fast else 0.7))
-    distance = max(2.0, min(distance, FARTHEST))
+    distance = max(2.0 * LOWEST, min(distance, FARTHEST))
+    ground = math.degrees(math.asin(max(-1.0, min(1.0, (LOWEST - float(target[2])) / distance))))
+    height = min(max(height, ground, -STEEPEST), STEEPEST - 4.0)
     a, h = math.radians(azimuth), math.radians(height)
     place = target + distance * np.array([math.sin(a) * math.cos(h), math.cos(a) * math.cos(h), math.sin(h)])
     kept = kept_in(np.asarray(place, dtype=np.float64))

@@ -103,7 +103,8 @@ def help_page(box: Box) -> None:
                 for keys, meaning in rows:
                     start = imgui.get_cursor_pos_x()
                     imgui.text_colored(imgui.ImVec4(0.55, 1.0, 0.6, 1.0), keys)
-                    imgui.same_line(start + KEY_WIDTH)
+                    imgui.same_line()
+                    imgui.set_cursor_pos_x(start + KEY_WIDTH)
                     imgui.text(meaning)
         imgui.end_table()
     imgui.end()

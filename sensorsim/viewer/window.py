@@ -58,14 +58,25 @@ class _Loader:
         """The window gives its context back itself."""
 
 
+def check_display() -> None:
+    """Raise GraphicsError where no window can be opened."""
+    problems: list[str] = []
+
+    def note(_code: int, text: Any) -> None:
+        problems.append(_plain(text))
+
+    glfw.set_error_callback(note)
+    if not glfw.init():
+        raise GraphicsError(f"no window: {'; '.join(problems) or 'GLFW gives no reason'}. Remedy: {_REMEDY}")
+
+
 class Window:
     """A window with an OpenGL 3.3 core context, current only inside `with window.ctx`."""
 
     def __init__(self, title: str, size: tuple[int, int]) -> None:
-        self.problems: list[str] = []
+        check_display()
+        self._problems: list[str] = []
         glfw.set_error_callback(self._on_error)
-        if not glfw.init():
-            raise GraphicsError(f"no window: {self._problem()}. Remedy: {_REMEDY}")
         for hint, value in (
             (glfw.CONTEXT_VERSION_MAJOR, 3),
             (glfw.CONTEXT_VERSION_MINOR, 3),
@@ -76,7 +87,7 @@ class Window:
         self._window = glfw.create_window(*size, title, None, None)
         if not self._window:
             glfw.terminate()
-            raise GraphicsError(f"no window: {self._problem()}. Remedy: {_REMEDY}")
+            raise GraphicsError(f"no window: {'; '.join(self._problems)}. Remedy: {_REMEDY}")
         glfw.make_context_current(self._window)
         glfw.swap_interval(0)
         self.ctx = moderngl.create_context(require=330, context=_Loader(self._window))  # type: ignore[arg-type]
@@ -116,9 +127,6 @@ class Window:
         glfw.destroy_window(self._window)
         glfw.terminate()
 
-    def _problem(self) -> str:
-        return "; ".join(self.problems) or "GLFW gives no reason"
-
     def _listen(self) -> None:
         glfw.set_key_callback(self._window, self._on_key)
         glfw.set_char_callback(self._window, self._on_char)
@@ -128,7 +136,7 @@ class Window:
         glfw.set_window_focus_callback(self._window, self._on_focus)
 
     def _on_error(self, _code: int, text: Any) -> None:
-        self.problems.append(text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text))
+        self._problems.append(_plain(text))
 
     def _on_key(self, _window: Any, code: int, _scancode: int, action: int, _mods: int) -> None:
         name = self._names.get(code)
@@ -155,3 +163,8 @@ class Window:
     def _on_focus(self, _window: Any, focused: int) -> None:
         if not focused:  # the keys come up somewhere else
             self.events.held.clear()
+
+
+def _plain(text: Any) -> str:
+    """GLFW's message, which comes as bytes or as text."""
+    return text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text)
