@@ -116,6 +116,13 @@ def test_start_fly_scrub_switch_sensor_save_and_quit(screen: dict[str, str], tow
         _, later = hand.picture()
         assert later["time_of_day_s"] > start["time_of_day_s"] + 600.0
 
+        strip = 308 + (960 - 308 - 8) * 3 // 4  # of day and night, right of the panel: 18 h
+        hand.do("mousemove", "--window", window, str(strip), "525", "sleep", "0.3", "mousedown", "1", "sleep", "0.3")
+        hand.do("mouseup", "1")
+        _, evening = hand.picture()
+        assert evening["time_of_day_s"] == pytest.approx(18.0 * 3600.0, abs=300.0)
+        assert evening["camera"] == later["camera"]  # a panel takes the mouse
+
         hand.do("key", "2")
         second, switched = hand.picture()
         assert switched["sensor"]["name"] == "lltv"

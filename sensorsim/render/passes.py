@@ -6,7 +6,7 @@ import moderngl
 
 from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
 from sensorsim.gpu.mesh import MeshBuffers
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.tables import LookupTable
 
 TEXTURE_UNITS = {
@@ -15,6 +15,7 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "lobe_table": 12,
     "product_picture": 5,
     "focal_plane": 6,
     "kernel_table": 7,
@@ -28,6 +29,10 @@ TEXTURE_UNITS = {
     "block_picture": 14,
     "baseline_picture": 15,
     "halo_picture": 14,
+    "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
+    "sky_indicatrix_table": 17,
+    "rise_table": 18,
+    "mirror_table": 19,
 }
 
 
@@ -56,29 +61,40 @@ class Pass:
         self.program.release()
 
 
-def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+def surface_pass(
+    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool, lobes: bool
+) -> Pass:
     """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
     return Pass(
         ctx,
         "scene/surface.vert",
         "scene/surface.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
-        samplers=("surface_table", "coefficient_table", "band_radiance_table"),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
+        samplers=(
+            "surface_table",
+            "coefficient_table",
+            "band_radiance_table",
+            "rise_table",
+            "mirror_table",
+            *(("lobe_table",) if lobes else ()),
+        ),
         generated={**generated, "constants": constants_glsl()},
-        defines={"EMISSIVE": int(emissive)},
+        defines={"EMISSIVE": int(emissive), "LOBES": int(lobes)},
         mesh=mesh,
     )
 
 
-def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass:
+def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
+    glow = () if emissive else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
         "common/screen.vert",
         "scene/background.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
-        samplers=("sky_radiance_table",),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
+        samplers=("sky_radiance_table", *glow),
         generated=generated,
+        defines={"EMISSIVE": int(emissive)},
     )
 
 

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
+from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
-from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
+from sensorsim.render.illumination import Illumination, dark, illuminate
+from sensorsim.render.mirror import mirror_glsl, rise_table
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.surface_table import surface_table
@@ -29,9 +31,9 @@ from sensorsim.sensor import (
     window_limits,
 )
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
-_BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
+_BLOCKS = (VIEW_FRAME, ILLUMINATION, AIR, DISPLAY)
 FILLED = 0.8  # of the detector's range, that an automatic iris aims at
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
@@ -52,8 +54,10 @@ class Renderer:
 
     def __init__(
         self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
-        samples: int = 1, blur_energy: float = 0.99,
+        samples: int = 1, blur_energy: float = 0.99, atmosphere: str = DEFAULT_ATMOSPHERE,
     ) -> None:  # fmt: skip
+        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces."""
+        self.atmosphere = check_atmosphere(atmosphere)
         if samples not in (1, 3, 5, 7):
             raise InputError("renderer", "samples", samples, "not 1, 3, 5 or 7", "give an odd number per pixel's side")
         if samples > 1 and sensor.detector is None:
@@ -95,10 +99,10 @@ class Renderer:
         number. `illumination` replaces the surroundings of the moment.
         """
         if illumination is None:
-            illumination = self.illuminate(time_of_day)
+            illumination = self.illuminate(time_of_day, float(camera.position[2]))
         with self.ctx:  # another renderer's context may have become the current one
             self._set_moment(time_of_day, illumination)
-            self._draw(camera)
+            self._draw(camera, illumination)
             planes = self._read()
             self._detect(camera, planes, frame)
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
@@ -107,40 +111,43 @@ class Renderer:
             planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )
 
-    def illuminate(self, time_of_day: float) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band."""
+    def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
+        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
-        return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
+        return illuminate(
+            self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table,
+            atmosphere=self.atmosphere, camera_height=camera_height,
+        )  # fmt: skip
 
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
         mesh, records = world.scene.mesh, self._records(0.0)
-        coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
-        sky = LookupTable(
-            name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
-            values=np.zeros(SKY_ENTRIES),
-        )  # fmt: skip
+        skies = (dark().sky_table(), *dark().glow_tables())
         self._tables = {
             "surface_table": float_table(ctx, "surface_table", records),
-            "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
-            "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
+            **{f"{table.name}_table": float_table(ctx, table.name, table.texels) for table in skies},
+            "rise_table": float_table(ctx, "rise_table", rise_table()),
+            "mirror_table": float_table(ctx, "mirror_table", dark().mirror_table()),
         }
+        self._tables_at = 0.0
+        for name, texels in shade_texels(world.tables, self._tables_at).items():
+            self._tables[name] = float_table(ctx, name, texels)
         generated = {
-            "coefficients": coefficient_glsl(coefficients.shape[-1]),
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
             "band_radiance": band.glsl(),
-            "sky_radiance": sky.glsl(),
+            **{table.name: table.glsl() for table in skies},
+            "mirror_size": mirror_glsl(),
         }
-        buffers = mesh_buffers(
-            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
-        )
-        emissive = self.sensor.mode == "emissive"
-        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
-        self._background = background_pass(ctx, generated)
+        vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
+        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
+        buffers = mesh_buffers(ctx, vertices, mesh.triangle)
+        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
+        self._background = background_pass(ctx, generated, emissive=emissive)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -180,9 +187,10 @@ class Renderer:
     def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
         if self.world.offsets is not None:
             update_table(self._tables["surface_table"], self._records(time_of_day))
-        coefficients = self.world.tables.at(time_of_day)
-        update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
-        update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
+        self._set_tables(time_of_day)
+        for table in (illumination.sky_table(), *illumination.glow_tables()):
+            update_table(self._tables[f"{table.name}_table"], table.texels)
+        update_table(self._tables["mirror_table"], illumination.mirror_table())
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
                 quadrant=illumination.quadrant,
@@ -190,12 +198,18 @@ class Renderer:
                 beam=illumination.beam,
                 sky_radiance=illumination.sky_radiance,
                 ground_radiance=illumination.ground_radiance,
-                air_radiance=illumination.air_radiance,
-                attenuation=illumination.attenuation,
             )
         )
 
-    def _draw(self, camera: Camera) -> None:
+    def _set_tables(self, time_of_day: float) -> None:
+        """Upload the tables of a moment, where the clock has moved."""
+        if time_of_day == self._tables_at:
+            return
+        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+            update_table(self._tables[name], texels)
+        self._tables_at = time_of_day
+
+    def _draw(self, camera: Camera, illumination: Illumination) -> None:
         position = self.world.scene.mesh.position
         near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
         corner, right, up = camera.view_rays(self.size)
@@ -208,6 +222,8 @@ class Renderer:
                 view_up=up,
             )
         )
+        air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
+        self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
         self._target.use()
         self._target.clear_depth()

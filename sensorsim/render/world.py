@@ -6,8 +6,15 @@ from datetime import date
 
 import numpy as np
 
-from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in, place_mismatch
-from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.environment import (
+    DEFAULT_VISIBILITY,
+    Environment,
+    Weather,
+    build_environment,
+    longest_lead_in,
+    place_mismatch,
+)
+from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import (
     BakeSettings,
@@ -40,23 +47,35 @@ class World:
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
+def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
+    """The plane that walls see: loam, or snow where it lies."""
+    return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+
+
 def build_world(
     scene: Scene,
     weather: Weather,
     *,
     image_day: date,
     settings: BakeSettings | None = None,
+    visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
     catalogue: Catalogue | None = None,
     progress: Progress | None = None,
 ) -> World:
-    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
+    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning.
+
+    visibility [m] and aerosol, the kind of haze or fog, are those of the air that the scene is seen through.
+    """
     settings = BakeSettings() if settings is None else settings
     catalogue = load_catalogue() if catalogue is None else catalogue
     lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
-    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
+    environment = build_environment(
+        weather, image_day=image_day, lead_in_days=lead_in, step=settings.step, visibility=visibility, aerosol=aerosol
+    )
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
-    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    ground = ground_plane(catalogue, season)
     tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
     tabled = inputs_digest(environment, assignment.wall_types, ground, settings)
     offsets = None

@@ -13,9 +13,9 @@ WIDTH = 292.0  # [pixels]
 def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
     """Names and values of a pixel, as far as there are any."""
     values = (
-        ("feature", _short(probe.feature, 26)),
+        ("feature", _short(probe.feature, 24)),
         ("part", f"{probe.role} {probe.word}".strip()),
-        ("material", _short(probe.wall_type, 26)),
+        ("material", _short(probe.wall_type, 24)),
         ("inside", probe.interior),
         ("reflects", _number(probe.reflectance, "{:.2f} of sunlight")),
         ("emits", _number(probe.emissivity, "{:.3f} of a black body")),

@@ -17,7 +17,8 @@ from sensorsim.viewer.variants import varied
 
 KEPT = 4  # renderers, so that going back to a sensor costs nothing
 SCALES = (1.0, 1.5, 2.0, 3.0, 4.0)  # window pixels per pixel drawn
-SLOW, QUICK = 0.060, 0.012  # [s] of a picture, beyond which the scale changes
+COARSEST = 3.0  # that is chosen without being asked for
+SLOW, QUICK = 0.080, 0.012  # [s] of a picture, beyond which the scale changes
 
 Key = tuple[str, bool, bool, tuple[int, int]]
 
@@ -101,7 +102,7 @@ def next_scale(scale: float, seconds: FloatArray) -> float:
     if seconds.size < 8:
         return scale
     middle, index = float(np.median(seconds)), SCALES.index(scale)
-    if middle > SLOW and index + 1 < len(SCALES):
+    if middle > SLOW and scale < COARSEST:
         return SCALES[index + 1]
     if middle < QUICK and index > 0:
         return SCALES[index - 1]

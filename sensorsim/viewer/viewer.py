@@ -194,9 +194,11 @@ class Viewer:
             self._say(done.world.warnings[0])
 
     def _fit_scale(self) -> None:
-        """Fewer pixels where pictures are slow; a script's are always as many."""
+        """Fewer pixels where pictures are slow; a script's are always as many, and a bake passes."""
+        if self.options.script is not None or self.baker.busy:
+            return
         self.times.append(self.stage.seconds)
-        scale = next_scale(self.scale, np.array(self.times)) if self.options.script is None else self.scale
+        scale = next_scale(self.scale, np.array(self.times))
         if scale != self.scale:
             self.scale = scale
             self.times.clear()
