@@ -16,6 +16,7 @@ from sensorsim.tables.bake import Progress
 from sensorsim.viewer import Place, Stage, ViewState, day_of_surface, probe_pixel
 from sensorsim.viewer.baker import Baker
 from sensorsim.viewer.choices import centre_range, seen, stations
+from sensorsim.viewer.fit_errors import FitMeter
 from sensorsim.viewer.probe import histogram
 from sensorsim.viewer.stage import SCALES, drawn_size, next_scale, picture_tone
 from sensorsim.viewer.variants import varied
@@ -138,6 +139,31 @@ def test_slow_pictures_get_coarser_and_quick_ones_finer() -> None:
     assert next_scale(SCALES[0], np.full(8, 0.0)) == SCALES[0]
     assert drawn_size(980.0, 658.0, 2, 2.0) == (245, 329)
     assert drawn_size(1.0, 1.0, 2, 4.0) == (16, 16)
+
+
+def test_without_air_the_far_ground_is_as_warm_as_it_is(stage: Stage) -> None:
+    seen_through, bare = (stage.draw(state(atmosphere=air), SIZE)[0].picture.planes for air in ("standard", "none"))
+    ground = bare["surface_id"] >= 0
+    loss = seen_through["apparent_temperature"][ground] - bare["apparent_temperature"][ground]
+    assert 0.05 < np.abs(loss).mean() < 5.0
+
+
+def test_the_error_of_the_fit_is_that_of_the_world_it_was_measured_in() -> None:
+    meter, world = FitMeter(), small_world.town()
+    assert meter.found(world) is None
+    meter.measure(world, NOON)
+    meter.measure(world, 0.0)  # dropped: one at a time
+    waiting = threading.Event()
+    for _ in range(3000):
+        if meter.found(world) is not None or "measuring" not in meter.note:
+            break
+        waiting.wait(0.01)
+    found = meter.found(world)
+    assert found is not None, meter.note
+    assert found.time_of_day == NOON
+    assert found.error.shape == (world.scene.surfaces.area.size,)
+    assert np.all((found.error >= 0.0) & (found.error < 5.0))
+    assert meter.found(replace(world, warnings=())) is None
 
 
 # --- sensors without noise and blur ------------------------------------------------------------------------------

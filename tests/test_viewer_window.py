@@ -23,7 +23,7 @@ from sensorsim.errors import SensorsimError
 
 ROOT = Path(__file__).resolve().parents[1]
 TIMEOUT = 120.0  # [s] of anything, on a busy machine
-OPTIONS = ("--preset", "report", "--at", "1976-02-07T10:00", "--size", "960x540", "--scale", "3")
+OPTIONS = ("--preset", "report", "--at", "1976-02-07T15:00Z", "--size", "960x540", "--scale", "3")
 
 
 @pytest.fixture(scope="module")

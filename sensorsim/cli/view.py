@@ -1,13 +1,23 @@
 """`sensorsim view`: fly through a scene in a window."""
 
-from datetime import time
+from datetime import timedelta
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from sensorsim.cli.options import Backend, Level, Preset, SceneName, bake_progress, read_moment, read_size
+from sensorsim.cli.options import (
+    Backend,
+    Level,
+    Preset,
+    SceneName,
+    bake_progress,
+    find_weather,
+    local_day,
+    read_moment,
+    read_size,
+)
 from sensorsim.cli.render import read_camera
 from sensorsim.environment import read_weather
 from sensorsim.errors import InputError
@@ -55,32 +65,29 @@ def view(
     """Fly through a scene in a window. H shows the keys."""
     run_viewer, viewer_options = _window_parts()
     _check(scale, frames)
-    steps = None if script is None else read_script(script)
-    sensors = _sensors(sensor)
-    place = _place(at, weather, level)
-    hour = read_moment(at).time() if at is not None else time(10)
+    sensors, pixels = _sensors(sensor), read_size(size)
+    ground = load_scene(scene, level=level)
+    place = _place(at, weather, level, ground.site.utc_offset)
     settings = bake_preset(preset)
 
     def build(asked: Place, progress: Progress) -> World:
-        return build_world(
-            load_scene(scene, level=asked.level), read_weather(asked.weather), image_day=asked.day, settings=settings,
-            progress=progress,
-        )  # fmt: skip
+        series = read_weather(asked.weather)
+        baked = load_scene(scene, level=asked.level)
+        return build_world(baked, series, image_day=asked.day, settings=settings, progress=progress)
 
-    opening = read_camera(load_scene(scene, level=level), camera, None)
+    opening, first = read_camera(ground, camera, None), load_sensor(sensor).name
+    options = viewer_options(
+        size=pixels, folder=out, sensors=sensors, days=choosable_days(place.weather, place.day), build=build,
+        backend=backend, frames=frames, script=None if script is None else read_script(script),
+        flight=None if path is None else read_camera_path(path, ground.frame),
+    )  # fmt: skip
     with bake_progress("baking") as progress:
         world = build(place, progress)
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
-    first = load_sensor(sensor).name
     state = ViewState(
-        camera=opening, time_of_day=3600.0 * hour.hour + 60.0 * hour.minute + float(hour.second), place=place,
+        camera=opening, time_of_day=_time_of_day(at, world), place=place,
         sensors=(first, "lltv" if first != "lltv" else "flir"), scale=scale,
-    )  # fmt: skip
-    options = viewer_options(
-        size=read_size(size), folder=out, sensors=sensors, days=choosable_days(place.weather, place.day), build=build,
-        backend=backend, script=steps, frames=frames,
-        flight=None if path is None else read_camera_path(path, world.scene.frame),
     )  # fmt: skip
     run_viewer(world, state, options)
 
@@ -111,12 +118,21 @@ def _sensors(chosen: str) -> dict[str, Sensor]:
     return {device.name: device for device in map(load_sensor, names)}
 
 
-def _place(at: str | None, weather: str | None, level: str) -> Place:
+def _time_of_day(at: str | None, world: World) -> float:
+    """Seconds after midnight of the world's day; 10 h where no time was given."""
+    midnight = world.environment.image_start
+    moment = midnight + timedelta(hours=10) if at is None else read_moment(at)
+    return (moment.replace(tzinfo=moment.tzinfo or midnight.tzinfo) - midnight).total_seconds()
+
+
+def _place(at: str | None, weather: str | None, level: str, utc_offset: float) -> Place:
     """Level, weather and day: without a time the weather's own day, without both the first that is shipped."""
     shipped = shipped_days()
     if at is not None:
-        day = read_moment(at).date()
-        return Place(level=level, weather=weather_name(weather, day), day=day)
+        moment = read_moment(at)
+        here = local_day(moment, utc_offset)
+        series = find_weather(weather, here)
+        return Place(level=level, weather=weather_name(weather, here), day=local_day(moment, series.site.utc_offset))
     name = shipped[0][0] if weather is None else weather
     days = dict(shipped) | {own.isoformat(): own for _, own in shipped}
     day = days[name] if name in days else default_day(read_weather(name))

@@ -25,7 +25,7 @@ from sensorsim.viewer.state import (
     with_sensor,
 )
 
-FILE_ACTIONS = ("save_picture", "save_planes", "save_window", "record", "replay")
+FILE_ACTIONS = ("save_picture", "save_planes", "save_window", "record", "replay", "measure")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

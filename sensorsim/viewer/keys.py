@@ -45,6 +45,7 @@ PRESSED: Mapping[str, str] = {
     "TAB": "panels",
     "H": "help",
     "F1": "help",
+    "Y": "measure",
     "R": "record",
     "BACKSPACE": "replay",
     "F10": "save_window",
@@ -95,6 +96,7 @@ HELP: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
         "Scene and files",
         (
             ("F", "level of detail (bakes)"),
+            ("Y", "measure the error of the fit (probe)"),
             ("R, Backspace", "record the flight, fly it again"),
             ("F12", "picture as PNG with its settings"),
             ("F11", "planes as EXR"),

@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
+from typing import get_args
 
 import numpy as np
 from imgui_bundle import imgui
 
 from sensorsim.radiometry import FloatArray
+from sensorsim.render.air import Atmosphere
 from sensorsim.scene import LEVELS
 from sensorsim.sensor import DisplaySettings
 from sensorsim.viewer.actions import Seen, adjust
@@ -176,6 +178,9 @@ def _scene(state: ViewState, facts: Facts) -> ViewState:
     changed, index = imgui.combo("weather", current, names)
     if changed:
         place = replace(place, weather=names[index], day=facts.seen.days[index][1])
+    airs = list(get_args(Atmosphere))
+    changed, index = imgui.combo("air", airs.index(state.atmosphere), airs)
+    state = replace(state, atmosphere=airs[index]) if changed else state
     day = _day(place.day)
     imgui.same_line()
     imgui.text(day.isoformat())

@@ -4,14 +4,16 @@ import numpy as np
 from imgui_bundle import imgui
 
 from sensorsim.radiometry import FloatArray
+from sensorsim.viewer.clock import clock_text
+from sensorsim.viewer.fit_errors import FitErrors
 from sensorsim.viewer.panels import plain_rows
 from sensorsim.viewer.probe import Probe
 
 WIDTH = 292.0  # [pixels]
 
 
-def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
-    """Names and values of a pixel, as far as there are any."""
+def probe_rows(probe: Probe, errors: FitErrors | None) -> tuple[tuple[str, str], ...]:
+    """Names and values of a pixel, as far as there are any, and the error of its fit where that was measured."""
     values = (
         ("feature", _short(probe.feature, 24)),
         ("part", f"{probe.role} {probe.word}".strip()),
@@ -20,6 +22,7 @@ def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
         ("reflects", _number(probe.reflectance, "{:.2f} of sunlight")),
         ("emits", _number(probe.emissivity, "{:.3f} of a black body")),
         ("surface", _kelvin(probe.temperature)),
+        ("fit error", _fit_error(probe, errors)),
         ("apparent", _kelvin(probe.apparent_temperature)),
         ("radiance", f"{probe.radiance:.5g} W/(m2 sr)"),
         ("range", _number(probe.range, "{:.1f} m")),
@@ -28,14 +31,21 @@ def probe_rows(probe: Probe) -> tuple[tuple[str, str], ...]:
     return tuple((name, value) for name, value in values if value)
 
 
-def probe_panel(probe: Probe, day: tuple[FloatArray, FloatArray] | None, now: float, right: float, top: float) -> None:
+def probe_panel(
+    probe: Probe,
+    errors: FitErrors | None,
+    day: tuple[FloatArray, FloatArray] | None,
+    now: float,
+    right: float,
+    top: float,
+) -> None:
     """The window, its upper right corner at a place; `day` is times [s] and temperatures [K], `now` the clock [s]."""
     imgui.set_next_window_pos(imgui.ImVec2(right - WIDTH - 8.0, top + 62.0))
     imgui.set_next_window_size(imgui.ImVec2(WIDTH, 0.0))
     imgui.set_next_window_bg_alpha(0.85)
     plain = imgui.WindowFlags_.no_title_bar | imgui.WindowFlags_.no_inputs | imgui.WindowFlags_.no_resize
     imgui.begin("probe", None, plain | imgui.WindowFlags_.no_focus_on_appearing)
-    plain_rows(probe_rows(probe))
+    plain_rows(probe_rows(probe, errors))
     if day is not None:
         _plot(day, now)
     imgui.end()
@@ -54,6 +64,12 @@ def _plot(day: tuple[FloatArray, FloatArray], now: float) -> None:
     green = imgui.get_color_u32(imgui.ImVec4(0.55, 1.0, 0.6, 1.0))
     imgui.get_window_draw_list().add_line(imgui.ImVec2(x, corner.y), imgui.ImVec2(x, corner.y + height), green, 1.5)
     imgui.text_disabled(f"0 to 24 h: {low:.1f} to {high:.1f} K")
+
+
+def _fit_error(probe: Probe, errors: FitErrors | None) -> str:
+    if errors is None or probe.surface is None:
+        return ""
+    return f"{float(errors.error[probe.surface]):.3f} K at {clock_text(errors.time_of_day)}"
 
 
 def _kelvin(value: float | None) -> str:

@@ -12,6 +12,7 @@ from sensorsim.viewer.actions import Seen
 from sensorsim.viewer.baker import Baker
 from sensorsim.viewer.choices import centre_range
 from sensorsim.viewer.clock import clock_text, day_strip, sun_times
+from sensorsim.viewer.fit_errors import FitMeter
 from sensorsim.viewer.gui import Gui
 from sensorsim.viewer.overlay import HINT, Box, draw_notes, draw_scale, draw_symbols, help_page
 from sensorsim.viewer.palettes import palette_table, scale_values
@@ -35,6 +36,7 @@ class Showing(Protocol):
     shots: tuple[Shot, ...]
     stage: Stage
     baker: Baker
+    meter: FitMeter
     baked: Place
     recording: Recording
     clock: float
@@ -82,10 +84,10 @@ class Screen:
             state, asked = panel(state, facts, float(size[1]))
             state = time_strip(state, facts, WIDTH, box[3], box[2])
         if state.probe:
-            self._probe(state, showing.shots, boxes, events.cursor)
+            self._probe(showing, boxes, events.cursor)
         if state.help:
             help_page(box)
-        notes = [showing.baker.note] if showing.baker.note else []
+        notes = [note for note in (showing.baker.note, showing.meter.note) if note]
         notes += [showing.note] if showing.clock < showing.note_until else []
         draw_notes(box, notes, at_top=True)
         draw_notes(box, () if state.moved or state.help else HINT, at_top=False)
@@ -132,20 +134,19 @@ class Screen:
             strip=self.strip, sun=self.sun, histogram=histogram(first), recorded=len(showing.recording.time),
         )  # fmt: skip
 
-    def _probe(
-        self, state: ViewState, shots: Sequence[Shot], boxes: Sequence[Box], cursor: tuple[float, float]
-    ) -> None:
+    def _probe(self, showing: Showing, boxes: Sequence[Box], cursor: tuple[float, float]) -> None:
         """What is under the pointer, unless that is a panel."""
         if self.gui.takes_mouse:
             return
-        for box, shot in zip(boxes, shots, strict=True):
+        for box, shot in zip(boxes, showing.shots, strict=True):
             height, width = shot.picture.planes["display"].shape
             column = int(np.floor((cursor[0] - box[0]) / box[2] * width))
             row = int(np.floor((cursor[1] - box[1]) / box[3] * height))
             probe = probe_pixel(self.world, shot.picture, column, row)
             if probe is not None:
                 day = None if probe.surface is None else self._day_of(probe.surface)
-                probe_panel(probe, day, state.time_of_day, boxes[-1][0] + boxes[-1][2], box[1])
+                errors, right = showing.meter.found(self.world), boxes[-1][0] + boxes[-1][2]
+                probe_panel(probe, errors, day, showing.state.time_of_day, right, box[1])
 
     def _day_of(self, surface: int) -> tuple[FloatArray, FloatArray]:
         if self._day is None or self._day[0] != surface:

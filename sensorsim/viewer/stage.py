@@ -20,7 +20,7 @@ SCALES = (1.0, 1.5, 2.0, 3.0, 4.0)  # window pixels per pixel drawn
 COARSEST = 3.0  # that is chosen without being asked for
 SLOW, QUICK = 0.080, 0.012  # [s] of a picture, beyond which the scale changes
 
-Key = tuple[str, bool, bool, tuple[int, int]]
+Key = tuple[str, bool, bool, str, tuple[int, int]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -72,13 +72,13 @@ class Stage:
         self._renderers.clear()
 
     def _renderer(self, state: ViewState, name: str, size: tuple[int, int]) -> Renderer:
-        key = (name, state.noise, state.blur, size)
+        key = (name, state.noise, state.blur, state.atmosphere, size)
         renderer = self._renderers.pop(key, None)
         if renderer is None:
             while len(self._renderers) >= KEPT:
                 self._renderers.pop(next(iter(self._renderers))).release()
             sensor = varied(self.sensors[name], noise=state.noise, blur=state.blur)
-            renderer = Renderer(self.world, sensor, size=size, backend=self.backend)
+            renderer = Renderer(self.world, sensor, size=size, backend=self.backend, atmosphere=state.atmosphere)
         self._renderers[key] = renderer  # the one used last stands last
         return renderer
 

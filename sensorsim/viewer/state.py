@@ -6,6 +6,7 @@ from datetime import date
 
 from sensorsim.radiometry import FloatArray
 from sensorsim.render import Camera
+from sensorsim.render.air import DEFAULT_ATMOSPHERE
 from sensorsim.sensor import DisplaySettings
 
 GAIN_STEP = 1.25  # of the window's width, for a press of a key
@@ -36,6 +37,7 @@ class ViewState:
     side_by_side: bool = False
     displays: Mapping[str, DisplaySettings] = field(default_factory=dict)  # by sensor, where it is not its own
     palette: str = "grey"
+    atmosphere: str = DEFAULT_ATMOSPHERE
     noise: bool = True
     blur: bool = True
     scale: float | None = None  # window pixels per pixel drawn, None for as many as keep it fluid

@@ -17,6 +17,7 @@ from sensorsim.viewer.baker import Baker, Build
 from sensorsim.viewer.choices import Days, named, seen
 from sensorsim.viewer.clock import read_clock
 from sensorsim.viewer.files import free_path, save_picture, save_planes, save_window
+from sensorsim.viewer.fit_errors import FitMeter
 from sensorsim.viewer.gui import Gui
 from sensorsim.viewer.keys import PRESSED
 from sensorsim.viewer.recording import Recording, camera_at, write_camera_path
@@ -55,7 +56,8 @@ class Viewer:
             self.gui = Gui(self.window.ctx)
         self.screen = Screen(self.gui, world)
         self.stage = Stage(world, options.sensors, options.backend)
-        self.baker = Baker(options.build)
+        self.baker, self.meter = Baker(options.build), FitMeter()
+        self.drawn = state  # the last state that made a picture
         self.baked = self.asked = state.place
         self.shots: tuple[Shot, ...] = ()
         self.recording, self.flight, self.flown = Recording(), options.flight, 0.0
@@ -86,7 +88,7 @@ class Viewer:
         self._follow_bake()
         box = picture_box(self.window.size, panels=self.state.panels)
         scale = self.state.scale or self.scale
-        self.shots = self.stage.draw(self.state, drawn_size(box[2], box[3], len(self.state.drawn), scale))
+        self._draw(drawn_size(box[2], box[3], len(self.state.drawn), scale))
         self._fit_scale()
         with self.window.ctx:
             self.state, asked = self.screen.show(self, events, seconds)
@@ -95,6 +97,17 @@ class Viewer:
         for action in (*asked, *(PRESSED.get(key, "") for key in inputs.pressed)):
             if action in FILE_ACTIONS:
                 self._file(action)
+
+    def _draw(self, size: tuple[int, int]) -> None:
+        """Pictures of the state, or of the last one that could be drawn where this one cannot."""
+        try:
+            self.shots = self.stage.draw(self.state, size)
+            self.drawn = self.state
+        except SensorsimError as error:
+            if self.drawn is self.state or not self.shots:
+                raise
+            self._say(str(error))
+            self.state = replace(self.drawn, place=self.state.place, frame=self.state.frame)
 
     def _tick(self) -> float:
         """Seconds since the last frame; those of a script are all alike."""
@@ -215,6 +228,9 @@ class Viewer:
         if action == "save_window":
             with self.window.ctx:
                 return f"wrote {save_window(self.gui.read(), folder)}"
+        if action == "measure":
+            self.meter.measure(self.stage.world, self.state.time_of_day)
+            return "solving every surface in full for this hour"
         if action in ("record", "replay"):
             return self._record() if action == "record" else self._replay()
         written = []
