@@ -73,7 +73,7 @@ HELP: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     (
         "Time",
         (
-            (", .", "hold: earlier, later"),
+            ("comma, period", "hold: earlier, later"),
             ("Space", "let the day run, or stop it"),
             ("J", "next weather day (bakes)"),
         ),

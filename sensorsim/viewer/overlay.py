@@ -14,7 +14,7 @@ Box = tuple[float, float, float, float]  # left, top, width, height [pixels]
 KEY_WIDTH = 160.0  # of the first column of the help page [pixels]
 HINT = (
     "W A S D  fly     Q E  down, up     drag the mouse  look around     wheel  speed",
-    "hold  ,  or  .  to change the hour     1 2 3  sensors     H  all keys",
+    "hold comma or period  change the hour     1 2 3  sensors     H  all keys",
 )
 
 

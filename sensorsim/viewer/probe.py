@@ -65,7 +65,7 @@ def probe_pixel(world: World, picture: Picture, column: int, row: int) -> Probe 
     )
 
 
-def day_of_surface(world: World, surface: int, count: int = 97) -> tuple[FloatArray, FloatArray]:
+def day_of_surface(world: World, surface: int, count: int = 49) -> tuple[FloatArray, FloatArray]:
     """Times [s] of the image day, midnight to midnight, and temperatures [K] (count,) of a surface, from the tables."""
     time = np.linspace(0.0, SECONDS_PER_DAY, count)
     normal = world.scene.surfaces.normal[surface : surface + 1]
@@ -82,7 +82,7 @@ def histogram(picture: Picture, bins: int = 96) -> tuple[FloatArray, float, floa
     """
     planes = picture.planes
     emissive = "apparent_temperature" in planes
-    values = planes["apparent_temperature" if emissive else "radiance"].ravel()[::3]
+    values = planes["apparent_temperature" if emissive else "radiance"].ravel()[::7]
     low, high = (float(value) for value in np.quantile(values, (0.001, 0.999)))
     if not high > low:
         low, high = low - 0.5, low + 0.5

@@ -119,7 +119,8 @@ class Screen:
         else:
             gain, text = f"{span:.3g} WIDE", f"{level:.3g} W/(m2 sr)"
         return Status(
-            sensor=f"{shot.sensor.name}  {1e6 * band[0]:.3g}-{1e6 * band[-1]:.3g} um",
+            sensor=shot.sensor.name,
+            band=f"{1e6 * band[0]:.3g}-{1e6 * band[-1]:.3g} um",
             polarity=polarity_text(shown.polarity, emissive=table is not None),
             automatic=asked.is_automatic, gain=gain, level=text, range=centre_range(shot),
             clock=f"{self.world.tables.day.isoformat()}  {clock_text(state.time_of_day)} LST",

@@ -33,6 +33,7 @@ class Status:
     """What the corner texts tell."""
 
     sensor: str
+    band: str
     polarity: str  # WHT HOT and the like
     automatic: bool
     gain: str
@@ -121,7 +122,12 @@ def _reticle(size: tuple[float, float]) -> Symbols:
 def _corners(camera: Camera, size: tuple[float, float], status: Status) -> tuple[Label, ...]:
     width, height = size
     latitude, longitude, up = status.place
-    upper = (status.sensor.upper(), f"{status.polarity}  {'AUTO' if status.automatic else 'MAN'}", *status.extra)
+    upper = (
+        status.sensor.upper(),
+        status.band,
+        f"{status.polarity}  {'AUTO' if status.automatic else 'MAN'}",
+        *status.extra,
+    )
     lower_left = (
         status.clock,
         f"{abs(latitude):.5f} {'N' if latitude >= 0 else 'S'}  {abs(longitude):.5f} {'E' if longitude >= 0 else 'W'}",
