@@ -175,8 +175,8 @@ def test_rungs_lie_where_a_camera_sees_their_elevation() -> None:
 
 def test_symbols_tell_range_polarity_and_field() -> None:
     status = Status(
-        sensor="flir", band="8-14 um", polarity=polarity_text("black-hot", emissive=True), automatic=False, gain="8 K", level="280 K",
-        range=None, clock="10:00", place=(39.8, -84.0, 50.0),
+        sensor="flir", band="8-14 um", polarity=polarity_text("black-hot", emissive=True), automatic=False,
+        gain="8 K", level="280 K", range=None, clock="10:00", place=(39.8, -84.0, 50.0),
     )  # fmt: skip
     lines, labels = symbols(camera(), (640.0, 480.0), status)
     texts = [label.text for label in labels]

@@ -1,6 +1,7 @@
 """Probe, off-screen pictures, sensors without noise or blur, and bakes in the background."""
 
 import threading
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date
 
@@ -10,7 +11,7 @@ import small_world
 
 from sensorsim.errors import InputError
 from sensorsim.render import Renderer, World, station_camera
-from sensorsim.sensor import load_sensor, sensitivity
+from sensorsim.sensor import DisplaySettings, load_sensor, sensitivity
 from sensorsim.sensor.load import sensor_names
 from sensorsim.tables.bake import Progress
 from sensorsim.viewer import Place, Stage, ViewState, day_of_surface, probe_pixel
@@ -33,8 +34,10 @@ def state(**changes: object) -> ViewState:
 
 
 @pytest.fixture(scope="module")
-def stage() -> Stage:
-    return Stage(small_world.town(), {name: load_sensor(name) for name in ("flir", "lltv", "uncooled")})
+def stage() -> Iterator[Stage]:
+    made = Stage(small_world.town(), {name: load_sensor(name) for name in ("flir", "lltv", "uncooled")})
+    yield made
+    made.release()
 
 
 # --- probe -------------------------------------------------------------------------------------------------------
@@ -91,6 +94,15 @@ def test_colours_are_the_display_through_the_palette_and_the_scale_is_its_window
     assert np.array_equal(iron.picture.planes["display"], grey.picture.planes["display"])
     assert not np.array_equal(iron.colours, grey.colours)
     assert picture_tone(grey) is None
+
+
+def test_a_choice_that_cannot_be_drawn_says_so_and_the_next_one_is_drawn(stage: Stage) -> None:
+    lost = {"flir": DisplaySettings(level=40.0, span=1e-30)}
+    with pytest.raises(InputError, match="span"):
+        stage.draw(state(displays=lost), SIZE)
+    with pytest.raises(InputError, match="atmosphere"):
+        stage.draw(state(atmosphere="none at all"), SIZE)
+    assert stage.draw(state(), SIZE)[0].picture.planes["range"].shape == SIZE[::-1]
 
 
 def test_a_frame_that_is_saved_is_the_picture_on_show(stage: Stage) -> None:

@@ -1,5 +1,6 @@
 """What lies over the picture: symbols, colour scale, first hint, notes and the help page. Needs the extra `viewer`."""
 
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -74,6 +75,7 @@ def scale_text(value: float, unit: str) -> str:
 
 def draw_notes(box: Box, lines: Sequence[str], *, at_top: bool) -> None:
     """Lines in a dark box in the middle of the picture's width, near its top or its bottom."""
+    lines = [part for line in lines for part in textwrap.wrap(line, max(20, int(box[2] / 10.0)))]
     if not lines:
         return
     draw = imgui.get_foreground_draw_list()

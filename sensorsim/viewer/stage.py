@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.frames import Frame, take_frame
+from sensorsim.gpu import create_context
 from sensorsim.radiometry import FloatArray
 from sensorsim.render import Picture, Renderer, World
 from sensorsim.render.renderer import exposed
@@ -39,26 +40,24 @@ class Stage:
     def __init__(self, world: World, sensors: Mapping[str, Sensor], backend: str = "auto") -> None:
         self.world, self.sensors, self.backend = world, sensors, backend
         self.seconds = 0.0  # that the last pictures took
+        self._rest = create_context(backend)
         self._renderers: dict[Key, Renderer] = {}
 
     def swap(self, world: World) -> None:
         """Go on with another world."""
-        self.release()
+        self._drop()
         self.world = world
 
     def draw(self, state: ViewState, size: tuple[int, int]) -> tuple[Shot, ...]:
         """Pictures of `size` (width, height) of the sensors on show, from left to right."""
-        began = time.perf_counter()
-        table = palette_table(state.palette)
-        shots = []
-        for name in state.drawn:
-            renderer = self._renderer(state, name, size)
-            display = state.display_of(name, self.sensors[name].display)
-            picture = renderer.render(state.camera, state.time_of_day, display=display, frame=state.frame)
-            colours = paint(picture.planes["display"], table)
-            shots.append(Shot(sensor=renderer.sensor, picture=picture, colours=colours, renderer=renderer))
-        self.seconds = time.perf_counter() - began
-        return tuple(shots)
+        began, table = time.perf_counter(), palette_table(state.palette)
+        try:
+            return tuple(self._shot(state, name, size, table) for name in state.drawn)
+        finally:
+            with (
+                self._rest
+            ):  # leaving it leaves no context current, whatever happened: a window's may be of another kind
+                self.seconds = time.perf_counter() - began
 
     def frame(self, state: ViewState, shot: Shot) -> Frame:
         """The same picture again as a frame with all that made it, its display window held."""
@@ -66,10 +65,21 @@ class Stage:
         return take_frame(shot.renderer, state.camera, state.time_of_day, display=window, frame=state.frame)
 
     def release(self) -> None:
-        """Give back all renderers."""
+        """Give back all contexts."""
+        self._drop()
+        self._rest.release()
+
+    def _drop(self) -> None:
         for renderer in self._renderers.values():
             renderer.release()
         self._renderers.clear()
+
+    def _shot(self, state: ViewState, name: str, size: tuple[int, int], table: Colours) -> Shot:
+        renderer = self._renderer(state, name, size)
+        display = state.display_of(name, self.sensors[name].display)
+        picture = renderer.render(state.camera, state.time_of_day, display=display, frame=state.frame)
+        colours = paint(picture.planes["display"], table)
+        return Shot(sensor=renderer.sensor, picture=picture, colours=colours, renderer=renderer)
 
     def _renderer(self, state: ViewState, name: str, size: tuple[int, int]) -> Renderer:
         key = (name, state.noise, state.blur, state.atmosphere, size)

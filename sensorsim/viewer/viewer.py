@@ -11,6 +11,7 @@ import numpy as np
 from sensorsim.errors import SensorsimError
 from sensorsim.frames.camera_path import CameraPath
 from sensorsim.render import World
+from sensorsim.render.air import DEFAULT_ATMOSPHERE
 from sensorsim.sensor import Sensor
 from sensorsim.viewer.actions import FILE_ACTIONS, Inputs, advance, press
 from sensorsim.viewer.baker import Baker, Build
@@ -99,15 +100,20 @@ class Viewer:
                 self._file(action)
 
     def _draw(self, size: tuple[int, int]) -> None:
-        """Pictures of the state, or of the last one that could be drawn where this one cannot."""
+        """Pictures of the state, or of the last one that could be drawn where this one cannot.
+
+        In a world that is new there is no last one: the plain display and air are the way back then.
+        """
         try:
             self.shots = self.stage.draw(self.state, size)
-            self.drawn = self.state
         except SensorsimError as error:
-            if self.drawn is self.state or not self.shots:
-                raise
             self._say(str(error))
-            self.state = replace(self.drawn, place=self.state.place, frame=self.state.frame)
+            if self.shots:
+                self.state = replace(self.drawn, place=self.state.place, frame=self.state.frame)
+            else:
+                self.state = replace(self.state, displays={}, atmosphere=DEFAULT_ATMOSPHERE)
+            self.shots = self.stage.draw(self.state, size)
+        self.drawn = self.state
 
     def _tick(self) -> float:
         """Seconds since the last frame; those of a script are all alike."""
