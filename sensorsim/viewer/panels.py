@@ -66,8 +66,9 @@ def time_strip(state: ViewState, facts: Facts, left: float, top: float, width: f
     imgui.same_line()
     rise, down = ("never" if time is None else clock_text(time) for time in facts.sun)
     imgui.text(f"{clock_text(state.time_of_day)} local standard time, {facts.baked.day.isoformat()}")
-    imgui.same_line()
-    imgui.text_disabled(f"  sun up {rise}, down {down}")
+    if width > 760.0:  # else there is no room before the speed
+        imgui.same_line()
+        imgui.text_disabled(f"  sun up {rise}, down {down}")
     imgui.same_line(width - 250.0)
     imgui.set_next_item_width(140.0)
     names = [f"{speed / 60.0:g} min each s" if speed > 1.0 else "real time" for speed in PLAY_SPEEDS]

@@ -86,10 +86,10 @@ class Screen:
         if state.probe:
             self._probe(showing, boxes, events.cursor)
         if state.help:
-            help_page(box)
+            help_page((0.0, 0.0, float(size[0]), float(size[1])))
         notes = [note for note in (showing.baker.note, showing.meter.note) if note]
         notes += [showing.note] if showing.clock < showing.note_until else []
-        draw_notes(box, notes, at_top=True)
+        draw_notes(box, notes, at_top=not state.help)
         draw_notes(box, () if state.moved or state.help else HINT, at_top=False)
         self.gui.end()
         return state, asked
