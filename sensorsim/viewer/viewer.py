@@ -131,7 +131,7 @@ class Viewer:
         self.cursor = events.cursor
         typing = self.gui.takes_keys
         pressed = [] if typing else [name for name, is_down in events.keys if is_down]
-        held = set() if typing else set(events.held)
+        held = set() if typing else events.held | set(pressed)  # a tap between two frames counts as one frame
         if "Q" in held and not held.isdisjoint({"LEFT_CONTROL", "RIGHT_CONTROL"}):
             self.state = replace(self.state, quit=True)
         inputs = Inputs(
