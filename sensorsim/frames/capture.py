@@ -4,6 +4,7 @@ from datetime import datetime
 
 import numpy as np
 
+from sensorsim.effects import NOT_MODELLED
 from sensorsim.errors import InputError
 from sensorsim.frames.frame import JSON, Frame, build_frame
 from sensorsim.render import Camera, Picture, Renderer
@@ -60,6 +61,8 @@ def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
             "span": display.span,
             "unit": "W m-2 sr-1",
         },
+        "effects": picture.ledger.to_list(),
+        "not_modelled": list(NOT_MODELLED),
         "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
     }
 

@@ -42,7 +42,9 @@ class Pass:
         self.program.release()
 
 
-def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+def surface_pass(
+    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], defines: Mapping[str, int]
+) -> Pass:
     """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
     return Pass(
         ctx,
@@ -51,12 +53,12 @@ def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[st
         blocks=(VIEW_FRAME, ILLUMINATION),
         samplers=("surface_table", "coefficient_table", "band_radiance_table"),
         generated={**generated, "constants": constants_glsl()},
-        defines={"EMISSIVE": int(emissive)},
+        defines=defines,
         mesh=mesh,
     )
 
 
-def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass:
+def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines: Mapping[str, int]) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
     return Pass(
         ctx,
@@ -65,6 +67,7 @@ def background_pass(ctx: moderngl.Context, generated: Mapping[str, str]) -> Pass
         blocks=(VIEW_FRAME, ILLUMINATION),
         samplers=("sky_radiance_table",),
         generated=generated,
+        defines=defines,
     )
 
 

@@ -9,14 +9,17 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from sensorsim.errors import NumericsError
+from sensorsim.effects import EffectPlan, Ledger
+from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.frame_effects import frame_ledger
 from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
-from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
+from sensorsim.render.passes import TEXTURE_UNITS, Pass, background_pass, display_pass, surface_pass
 from sensorsim.render.surface_table import surface_table
+from sensorsim.render.variants import background_defines, surface_defines
 from sensorsim.render.world import World
 from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
 from sensorsim.tables import LookupTable
@@ -35,6 +38,7 @@ class Picture:
     time_of_day: float  # [s]
     camera: Camera
     illumination: Illumination
+    ledger: Ledger  # of the effects that are in it
 
 
 class Renderer:
@@ -47,6 +51,7 @@ class Renderer:
         self.sensor = sensor
         self.size = sensor.size if size is None else size
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
+        _require_temperature(world, sensor)
         self.ctx = create_context(backend)
         try:
             self._build()
@@ -75,18 +80,25 @@ class Renderer:
         """The picture from `camera` at a time of the image day [s].
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature and, in
-        emissive bands, apparent_temperature [K]. `illumination` replaces the surroundings of the moment.
+        emissive bands, apparent_temperature [K]; what the world's effects leave out is missing. `illumination` replaces
+        the surroundings of the moment.
         """
         if illumination is None:
             illumination = self.illuminate(time_of_day)
+        ledger = frame_ledger(self.world, self.band_table, camera, self.size, illumination)
         with self.ctx:  # another renderer's context may have become the current one
-            self._set_moment(time_of_day, illumination)
-            self._draw(camera)
-            planes = self._read()
+            self._set_moment(time_of_day, illumination, ledger.plan)
+            self._draw(camera, ledger.plan)
+            planes = self._read(ledger.plan)
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
             planes["display"] = self._display(settings)
         return Picture(
-            planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
+            planes=planes,
+            display=settings,
+            time_of_day=time_of_day,
+            camera=camera,
+            illumination=illumination,
+            ledger=ledger,
         )
 
     def illuminate(self, time_of_day: float) -> Illumination:
@@ -113,17 +125,15 @@ class Renderer:
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
         }
-        generated = {
+        self._generated = {
             "coefficients": coefficient_glsl(coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             "sky_radiance": sky.glsl(),
         }
-        buffers = mesh_buffers(
+        self._mesh = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
         )
-        emissive = self.sensor.mode == "emissive"
-        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
-        self._background = background_pass(ctx, generated)
+        self._passes: dict[tuple[str, tuple[tuple[str, int], ...]], Pass] = {}
         self._show = display_pass(ctx)
         self._target = render_target(ctx, self.size, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
@@ -141,9 +151,21 @@ class Renderer:
             values=np.zeros(2) if table is None else table.radiance,
         )
 
-    def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
-        coefficients = self.world.tables.at(time_of_day)
-        update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
+    def _pass(self, name: str, defines: Mapping[str, int]) -> Pass:
+        """The program of these defines, built when it is first called for."""
+        key = name, tuple(defines.items())
+        if key not in self._passes:
+            self._passes[key] = (
+                surface_pass(self.ctx, self._mesh, self._generated, defines)
+                if name == "surfaces"
+                else background_pass(self.ctx, self._generated, defines)
+            )
+        return self._passes[key]
+
+    def _set_moment(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
+        if plan.has("temperature"):
+            coefficients = self.world.tables.at(time_of_day)
+            update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
         update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
@@ -157,7 +179,7 @@ class Renderer:
             )
         )
 
-    def _draw(self, camera: Camera) -> None:
+    def _draw(self, camera: Camera, plan: EffectPlan) -> None:
         position = self.world.scene.mesh.position
         near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
         corner, right, up = camera.view_rays(self.size)
@@ -174,9 +196,9 @@ class Renderer:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
-        self._background.draw()
+        self._pass("background", background_defines(plan)).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._surfaces.draw()
+        self._pass("surfaces", surface_defines(plan, emissive=self.band_table is not None)).draw()
 
     def _bind(self) -> None:
         for block in _BLOCKS:
@@ -185,12 +207,14 @@ class Renderer:
             texture.use(TEXTURE_UNITS[name])
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
-    def _read(self) -> dict[str, NDArray[Any]]:
+    def _read(self, plan: EffectPlan) -> dict[str, NDArray[Any]]:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
         planes: dict[str, NDArray[Any]] = {
-            name: np.ascontiguousarray(quantities[:, :, component]) for component, name in enumerate(QUANTITIES)
+            name: np.ascontiguousarray(quantities[:, :, component])
+            for component, name in enumerate(QUANTITIES)
+            if name != "surface_temperature" or plan.has("temperature")
         }
         surface = self._target.read("id")[:, :, 0]
         planes["surface_id"] = surface
@@ -214,3 +238,10 @@ def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
     seen = planes["surface_id"] >= 0
     radiance: NDArray[np.float32] = planes["radiance"]
     return radiance[seen] if np.any(seen) else radiance.ravel()
+
+
+def _require_temperature(world: World, sensor: Sensor) -> None:
+    """Refuse an emissive sensor in a world that was built without temperatures."""
+    if sensor.mode == "emissive" and not world.ledger.plan.has("temperature"):
+        problem = "needs surface temperatures, which this world was built without"
+        raise InputError("renderer", "sensor", sensor.name, problem, "build the world for this sensor, or with them")

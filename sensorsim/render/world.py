@@ -3,20 +3,21 @@
 from dataclasses import dataclass
 from datetime import date
 
-from sensorsim.environment import Environment, Weather, build_environment, place_mismatch
-from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.effects import EffectChoice, Ledger, Limits
+from sensorsim.environment import Environment, Weather, place_mismatch
+from sensorsim.materials import Catalogue
+from sensorsim.render.survey import EVERY_EFFECT, survey_scene
 from sensorsim.scene import Scene
-from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, resolve_classes
-from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
+from sensorsim.sensor import Sensor
+from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, unbaked_tables
+from sensorsim.tables.assign import Assignment
 from sensorsim.tables.bake import Progress
-from sensorsim.thermal import Season, season_of
-
-GROUND_CODE = 93  # loam: the ground plane that walls see
+from sensorsim.thermal import Season
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class World:
-    """Everything that does not depend on the sensor."""
+    """Everything that does not depend on the camera."""
 
     scene: Scene
     weather: Weather
@@ -25,6 +26,9 @@ class World:
     assignment: Assignment
     tables: ShadeTables
     warnings: tuple[str, ...]  # what a user should know of the inputs
+    choice: EffectChoice  # what was asked for of the effects
+    ledger: Ledger  # which effects of the surface are in the tables
+    limits: Limits  # temperatures that no surface leaves
 
 
 def build_world(
@@ -35,31 +39,43 @@ def build_world(
     settings: BakeSettings | None = None,
     catalogue: Catalogue | None = None,
     progress: Progress | None = None,
+    effects: EffectChoice = EVERY_EFFECT,
+    sensor: Sensor | None = None,
 ) -> World:
-    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning."""
+    """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning.
+
+    Of the `effects` all are computed unless the choice says otherwise. Those that are left to their bounds are held to
+    the noise of `sensor`, or to that of one that sees surface temperatures.
+    """
     settings = BakeSettings() if settings is None else settings
-    catalogue = load_catalogue() if catalogue is None else catalogue
-    environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
+    survey = survey_scene(
+        scene, weather, image_day=image_day, settings=settings, catalogue=catalogue, choice=effects, sensor=sensor
     )
-    scene, season = resolve_classes(scene, catalogue), season_of(environment)
-    assignment = assign_wall_types(scene, catalogue, season)
-    tables = cached_tables(
-        environment,
-        assignment.wall_types,
-        ground=catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none"),
-        settings=settings,
-        progress=progress,
-    )
+    plan = survey.ledger.plan
+    if plan.has("temperature"):
+        tables = cached_tables(
+            survey.environment,
+            survey.assignment.wall_types,
+            ground=survey.ground,
+            settings=settings,
+            progress=progress,
+            plan=plan,
+            scope=survey.scope,
+        )
+    else:
+        tables = unbaked_tables(survey.environment, survey.assignment.wall_types, settings)
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
     return World(
-        scene=scene,
+        scene=survey.scene,
         weather=weather,
-        environment=environment,
-        season=season,
-        assignment=assignment,
+        environment=survey.environment,
+        season=survey.season,
+        assignment=survey.assignment,
         tables=tables,
         warnings=() if mismatch is None else (mismatch,),
+        choice=effects,
+        ledger=survey.ledger,
+        limits=survey.limits,
     )

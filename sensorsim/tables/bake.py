@@ -5,14 +5,17 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.mixture import mix_coefficients
 from sensorsim.tables.orientations import FloatArray, orientation_set
+from sensorsim.tables.scope import Scope, plain_walls, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
@@ -30,22 +33,28 @@ def bake_tables(
     ground: WallType,
     settings: BakeSettings | None = None,
     progress: Progress | None = None,
+    plan: EffectPlan = EVERYTHING,
+    scope: Scope | None = None,
 ) -> ShadeTables:
     """Coefficient matrix of all `wall_types` over the environment's image day; `ground` is the plane that walls see.
 
     Wall types are solved in threads, because the compiled march holds no interpreter lock. Of mixed wall types the
-    parts are solved, each once however many hold it.
+    parts are solved, each once however many hold it. The `plan` says what acts on them, the `scope` which orientations
+    and reflectances are solved; everything where there is none.
     """
     settings = BakeSettings() if settings is None else settings
-    orientations = orientation_set(settings.orientations)
-    soil = ground_temperature(environment, ground, sky=settings.sky)
-    exposure = expose(environment, orientations.normal, soil, sky=settings.sky)
+    scope = whole_scope(wall_types, settings) if scope is None else scope
+    soil = ground_temperature(environment, ground, sky=settings.sky, plan=plan)
+    exposure = expose(environment, scope.orientations.normal, soil, sky=settings.sky, plan=plan)
     record = _slices(environment, settings)
 
     def solve(wall: WallType) -> FloatArray:
-        return _solve_wall(environment, exposure, wall, settings, record)
+        needed, reflectances = scope.of_part(wall_types, wall)
+        if not np.all(needed):
+            return _solve_some(environment, exposure, needed, wall, settings, reflectances, record, plan)
+        return _solve_wall(environment, exposure, wall, settings, reflectances, record, plan)
 
-    plain = list(dict.fromkeys(part for wall in wall_types for part in _plain_walls(wall)))
+    plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, FloatArray] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         for wall, coefficients in zip(plain, pool.map(solve, plain), strict=True):
@@ -58,16 +67,25 @@ def bake_tables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
         wall_types=tuple(wall_types),
-        orientations=orientations,
+        orientations=scope.orientations,
         coefficients=np.stack(rows, axis=1).astype(np.float32),
         ground_temperature=soil[record],
         settings=settings,
     )
 
 
-def _plain_walls(wall: WallType) -> tuple[WallType, ...]:
-    """The wall types that have to be solved for one: itself, or the parts of a mixture."""
-    return tuple(part.wall for part in wall.parts) or (wall,)
+def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], settings: BakeSettings) -> ShadeTables:
+    """Tables in which no temperature is known (NaN): for bands that see none."""
+    orientations = orientation_set("report10")
+    return ShadeTables(
+        day=environment.image_start.date(),
+        time_of_day=np.array([0.0, SECONDS_PER_DAY]),
+        wall_types=tuple(wall_types),
+        orientations=orientations,
+        coefficients=np.full((2, len(wall_types), orientations.normal.shape[0], 1), np.nan, dtype=np.float32),
+        ground_temperature=np.full(2, np.nan),
+        settings=settings,
+    )
 
 
 def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
@@ -80,12 +98,28 @@ def _slices(environment: Environment, settings: BakeSettings) -> np.ndarray:
     return np.asarray(environment.image_window.start + np.arange(count + 1) * round(stride))
 
 
+def _solve_some(
+    environment: Environment, exposure: Exposure, needed: NDArray[np.bool_], wall: WallType, settings: BakeSettings,
+    reflectances: tuple[float, ...], record: np.ndarray, plan: EffectPlan,
+) -> FloatArray:  # fmt: skip
+    """Coefficients (t, o, p) [K] of one wall type, NaN for the orientations that are not needed (o,)."""
+    part = Exposure(
+        normal=exposure.normal[needed],
+        irradiance=exposure.irradiance[:, needed],
+        longwave=exposure.longwave[:, needed],
+    )
+    coefficients = np.full((record.size, needed.size, settings.degree + 1), np.nan)
+    coefficients[:, needed] = _solve_wall(environment, part, wall, settings, reflectances, record, plan)
+    return coefficients
+
+
 def _solve_wall(
-    environment: Environment, exposure: Exposure, wall: WallType, settings: BakeSettings, record: np.ndarray
-) -> FloatArray:
-    """Coefficients (t, o, p) [K] of one wall type."""
-    reflectances = np.asarray(settings.reflectances, dtype=np.float64)
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    environment: Environment, exposure: Exposure, wall: WallType, settings: BakeSettings,
+    values: tuple[float, ...], record: np.ndarray, plan: EffectPlan,
+) -> FloatArray:  # fmt: skip
+    """Coefficients (t, o, p) [K] of one wall type from histories at reflectances `values`; powers beyond them are 0."""
+    reflectances = np.asarray(values, dtype=np.float64)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     inside = build_interior(
         wall.interior,
         environment.air_temperature,
@@ -94,6 +128,7 @@ def _solve_wall(
         wall.interior_emissivity,
         room=wall.room,
         heat_gain=wall.heat_gain,
+        plan=plan,
     )
     water = wall.cover is not None and wall.cover.kind == "water"
     # Water remembers weeks; it starts from the mean of the air that it has mixed in.
@@ -105,4 +140,5 @@ def _solve_wall(
     exterior = history.exterior
     if water and wall.cover is not None:
         exterior = cool_skin(exterior, outside, record, wall.cover)
-    return fit_polynomials(exterior, reflectances, settings.degree)
+    fitted = fit_polynomials(exterior, reflectances, min(settings.degree, reflectances.size - 1))
+    return np.pad(fitted, ((0, 0), (0, 0), (0, settings.degree + 1 - fitted.shape[-1])))

@@ -16,17 +16,18 @@ from typing import Any
 
 import numpy as np
 
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.bake import Progress, bake_tables
 from sensorsim.tables.coefficients import ShadeTables
-from sensorsim.tables.orientations import orientation_set
+from sensorsim.tables.scope import Scope, whole_scope
 from sensorsim.tables.settings import BakeSettings
 
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
 _ARRAYS = ("time_of_day", "coefficients", "ground_temperature")
-_CODE = ("constants.py", "environment", "materials", "thermal", "tables")
+_CODE = ("constants.py", "effects", "environment", "materials", "thermal", "tables")
 
 
 def cached_tables(
@@ -36,22 +37,31 @@ def cached_tables(
     ground: WallType,
     settings: BakeSettings,
     progress: Progress | None = None,
+    plan: EffectPlan = EVERYTHING,
+    scope: Scope | None = None,
 ) -> ShadeTables:
     """The same as `bake_tables`, from disk where it has been baked before with the same inputs and code."""
     folder = cache_folder()
+    scope = whole_scope(wall_types, settings) if scope is None else scope
+
+    def bake() -> ShadeTables:
+        return bake_tables(
+            environment, wall_types, ground=ground, settings=settings, progress=progress, plan=plan, scope=scope
+        )
+
     if folder is None:
-        return bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
-    path = folder / f"{inputs_digest(environment, wall_types, ground, settings)}.npz"
+        return bake()
+    path = folder / f"{inputs_digest(environment, wall_types, ground, settings, plan=plan, scope=scope)}.npz"
     arrays = _read(path)
     if arrays is not None:
         return ShadeTables(
             day=environment.image_start.date(),
             wall_types=tuple(wall_types),
-            orientations=orientation_set(settings.orientations),
+            orientations=scope.orientations,
             settings=settings,
             **arrays,
         )
-    tables = bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
+    tables = bake()
     _write(path, tables)
     return tables
 
@@ -66,15 +76,18 @@ def cache_folder() -> Path | None:
 
 
 def inputs_digest(
-    environment: Environment, wall_types: Sequence[WallType], ground: WallType, settings: BakeSettings
-) -> str:
+    environment: Environment, wall_types: Sequence[WallType], ground: WallType, settings: BakeSettings, *,
+    plan: EffectPlan = EVERYTHING, scope: Scope | None = None,
+) -> str:  # fmt: skip
     """SHA-256 of all that decides the tables."""
+    scope = whole_scope(wall_types, settings) if scope is None else scope
     digest = hashlib.sha256()
     for field in fields(environment):
         value = getattr(environment, field.name)
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
-    digest.update(repr((tuple(wall_types), ground, settings)).encode())
+    digest.update(repr((tuple(wall_types), ground, settings, plan.surface, scope.reflectances)).encode())
+    digest.update(scope.orientations.normal.tobytes() + scope.needed.tobytes())
     package = Path(__file__).resolve().parent.parent
     for name in _CODE:
         source = package / name

@@ -1,6 +1,7 @@
 #version 330 core
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
 // plane of [Report1978] section 3.1.3 through its air path.
+// PATH 1: with the air in between, 0: without.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
 #include "generated/sky_radiance.glsl"
@@ -13,8 +14,11 @@ layout(location = 1) out int id;
 
 Radiance background_radiance(Direction view) {
     if (view.z >= 0.0) return sky_radiance(view.z);
-    Metre height = max(view_frame.camera_position.z, 0.0);
-    return apparent_radiance(illumination.ground_radiance, height / -view.z);
+#if PATH
+    return apparent_radiance(illumination.ground_radiance, max(view_frame.camera_position.z, 0.0) / -view.z);
+#else
+    return illumination.ground_radiance;
+#endif
 }
 
 void main() {

@@ -1,6 +1,7 @@
 #version 330 core
 // Provides: band radiance at the sensor [W m-2 sr-1], surface temperature [K], range [m] and surface id of a surface.
-// EMISSIVE 1: thermal bands, 0: reflective bands.
+// EMISSIVE 1: thermal bands, 0: reflective bands. By the effects that a frame calls for, 1 or 0: TEMPERATURE (else it
+// stays 0), MIRRORED surroundings in thermal bands, SUN in reflective bands, PATH through the air.
 #include "radiance/shade.glsl"
 #include "radiance/path.glsl"
 #include "radiance/emitted.glsl"
@@ -17,13 +18,22 @@ layout(location = 1) out int id;
 void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
-    Kelvin temperature =
-        surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
-#if EMISSIVE
-    Radiance source = emitted_radiance(temperature, record[1].w, normal);
-#else
-    Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
+    Kelvin temperature = 0.0;
+#if TEMPERATURE
+    temperature = surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
 #endif
-    quantities = vec4(apparent_radiance(source, range), temperature, range, 0.0);
+#if EMISSIVE && MIRRORED
+    Radiance source = emitted_radiance(temperature, record[1].w, normal);
+#elif EMISSIVE
+    Radiance source = own_radiance(temperature, record[1].w);
+#elif SUN
+    Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
+#else
+    Radiance source = skylit_radiance(reflectance_record.x, normal, record[3]);
+#endif
+#if PATH
+    source = apparent_radiance(source, range);
+#endif
+    quantities = vec4(source, temperature, range, 0.0);
     id = surface_id;
 }

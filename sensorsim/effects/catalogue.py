@@ -1,0 +1,72 @@
+"""The effects by name: each is one term of the model that can be left out, and what is no term of it at all."""
+
+from dataclasses import dataclass
+
+SURFACE, FRAME = "surface", "frame"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """One term of the model. Without it: see `without`."""
+
+    name: str
+    stage: str  # SURFACE: decided once for a bake; FRAME: for each frame
+    meaning: str
+    without: str  # what the model does then
+    sky: str | None = None  # needs this model of the sky
+    mode: str | None = None  # needs a sensor of this mode
+
+
+def _surface(name: str, meaning: str, without: str, sky: str | None = None, mode: str | None = None) -> Effect:
+    return Effect(name=name, stage=SURFACE, meaning=meaning, without=without, sky=sky, mode=mode)
+
+
+def _frame(name: str, meaning: str, without: str, mode: str | None = None) -> Effect:
+    return Effect(name=name, stage=FRAME, meaning=meaning, without=without, mode=mode)
+
+
+_DARK = "no light from there"
+EFFECTS = (
+    _surface("temperature", "temperature of surfaces", "no wall is solved", mode="reflective"),
+    _surface("direct_sun", "sunlight straight from the sun", _DARK),
+    _surface("sky_dome", "daylight of the uniform dome", _DARK, "perez"),
+    _surface("sky_glow", "daylight of the glow around the sun", _DARK, "perez"),
+    _surface("sky_horizon", "daylight of the bright or dark horizon", _DARK, "perez"),
+    _surface("sky_north", "daylight of the northern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_east", "daylight of the eastern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_south", "daylight of the southern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_west", "daylight of the western quarter of the sky", _DARK, "quadrants"),
+    _surface("ground_sun", "sunlight from the ground", _DARK),
+    _surface("thermal_sky", "long waves of a sky colder than the air", "a sky as warm as the air"),
+    _surface("ground_exchange", "long waves of a ground warmer or colder than the air", "a ground as warm as the air"),
+    _surface("forced_convection", "the wind's film of air", "no film but the free one"),
+    _surface("free_convection", "the film that a warm or cold surface raises itself", "no film but the forced one"),
+    _surface("rain", "rain on surfaces: its heat, and the film that stays", "surfaces that no rain hits"),
+    _surface("evaporation", "water that evaporates or comes down as dew", "dry surfaces"),
+    _surface("snow", "snow on the ground and its melting", "bare ground"),
+    _surface("interior", "heat from or to what lies behind the wall", "an inner face that no heat passes"),
+    _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
+    _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
+    _frame("reflected_sky", "sky and ground mirrored by surfaces", "no mirrored part", "emissive"),
+    _frame("reflected_sun", "sunlight in band from surfaces", _DARK, "reflective"),
+    _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
+)  # fmt: skip
+SUNLIGHT = ("direct_sun", *(effect.name for effect in EFFECTS if effect.sky is not None), "ground_sun")
+NAMES = tuple(effect.name for effect in EFFECTS)
+BY_NAME = {effect.name: effect for effect in EFFECTS}
+
+# What no setting can switch on.
+NOT_MODELLED = (
+    "specular reflection: all surfaces are Lambertian",
+    "cast shadows, and surfaces that hide sky, ground and sun from each other",
+    "exchange of heat and light between surfaces, except through the ground plane",
+    "conduction along a wall, and across its edges",
+    "blur by optics, detector and motion",
+    "noise, non-uniformity and dead pixels of the detector",
+    "scattering of sunlight along the path in emissive bands, and turbulence of the air",
+    "a path's own temperature and humidity aloft: the air is that of the station",
+    "moonlight, lamps and fires",
+    "plumes, vehicles and people",
+    "wind that buildings turn aside",
+    "water that runs, ponds or freezes on surfaces",
+)

@@ -1,0 +1,17 @@
+"""What effects cost, roughly: milliseconds of one core by a count of what has to be computed, for the ledger's column.
+
+Measured once on one core of a server of 2024; `sensorsim study effects` measures them on the machine at hand.
+"""
+
+PER_COLUMN_SAMPLE = 1.2e-3  # [ms] one wall type, orientation and reflectance, marched over one step
+PER_TERM_SAMPLE = 1.0e-5  # [ms] one term of the boundary at one orientation and sample
+
+
+def march_cost(columns: int, samples: int) -> float:
+    """Time [ms] of marching so many histories over so many samples."""
+    return PER_COLUMN_SAMPLE * columns * samples
+
+
+def term_cost(orientations: int, samples: int) -> float:
+    """Time [ms] of one term for so many orientations and samples."""
+    return PER_TERM_SAMPLE * orientations * samples

@@ -1,0 +1,157 @@
+"""What is known of a scene under its weather before anything is solved, and which effects that calls for."""
+
+from dataclasses import dataclass, replace
+from datetime import date
+
+import numpy as np
+
+from sensorsim.effects import (
+    DEFAULT_NOISE,
+    EFFECTS,
+    NOISE_SHARE,
+    SUNLIGHT,
+    SURFACE,
+    Bound,
+    EffectChoice,
+    EffectPlan,
+    Ledger,
+    Limits,
+    Situation,
+    apparent_factor,
+    applicable,
+    decide,
+    march_cost,
+    surface_bounds,
+)
+from sensorsim.environment import Environment, Weather, build_environment
+from sensorsim.materials import Catalogue, WallType, load_catalogue
+from sensorsim.radiometry import build_band_table
+from sensorsim.scene import Scene
+from sensorsim.sensor import Sensor
+from sensorsim.tables import BakeSettings, resolve_classes
+from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
+from sensorsim.tables.faces import ground_face, scene_faces
+from sensorsim.tables.scope import Scope, scene_scope, whole_scope
+from sensorsim.thermal import Season, season_of
+
+GROUND_CODE = 93  # loam: the ground plane that walls see
+EVERY_EFFECT = EffectChoice(base="all")
+UNSEEN = "the band shows reflected light, not temperature"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Survey:
+    """A scene under its weather, with nothing solved yet."""
+
+    scene: Scene
+    environment: Environment
+    season: Season
+    assignment: Assignment
+    ground: WallType
+    settings: BakeSettings
+    choice: EffectChoice
+    ledger: Ledger  # of the effects of the surface
+    limits: Limits  # temperatures that no surface leaves
+
+    @property
+    def scope(self) -> Scope:
+        """What the bake has to solve."""
+        return _scope(self.environment, self.assignment, self.scene, self.settings, self.ledger.plan)
+
+
+def survey_scene(
+    scene: Scene,
+    weather: Weather,
+    *,
+    image_day: date,
+    settings: BakeSettings,
+    catalogue: Catalogue | None = None,
+    choice: EffectChoice = EVERY_EFFECT,
+    sensor: Sensor | None = None,
+) -> Survey:
+    """Survey of a scene for one day; effects by the user's choice and, where that is left open, by their bounds.
+
+    With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
+    """
+    catalogue = load_catalogue() if catalogue is None else catalogue
+    environment = build_environment(
+        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
+    )
+    choice.require_inputs(sky=settings.sky, mode="emissive" if sensor is None else sensor.mode)
+    scene, season = resolve_classes(scene, catalogue), season_of(environment)
+    if choice.asked("snow") is False:
+        season = replace(season, snow=False)
+    assignment = assign_wall_types(scene, catalogue, season)
+    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    needed = _scope(environment, assignment, scene, settings, EffectPlan(off=("spare_orientations",)))
+    situation = Situation(
+        environment=environment,
+        faces=scene_faces(environment, assignment, needed, settings),
+        ground=ground_face(environment, ground, settings),
+    )
+    limits = situation.limits
+    bounds = {
+        **_worth(situation, limits, assignment, choice, sensor),
+        **_spared(environment, assignment, scene, settings),
+    }
+    effects = applicable(
+        (effect for effect in EFFECTS if effect.stage == SURFACE),
+        sky=settings.sky,
+        mode="emissive" if sensor is None else sensor.mode,
+    )
+    return Survey(
+        scene=scene,
+        environment=environment,
+        season=season,
+        assignment=assignment,
+        ground=ground,
+        settings=settings,
+        choice=choice,
+        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K")),
+        limits=limits,
+    )
+
+
+def _scope(
+    environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings, plan: EffectPlan
+) -> Scope:
+    lit = plan.any_of(*SUNLIGHT) and bool(
+        np.any(environment.beam_irradiance > 0.0) or np.any(environment.diffuse_irradiance > 0.0)
+    )
+    return scene_scope(assignment, scene.surfaces.normal, settings, plan, lit=lit)
+
+
+def _worth(
+    situation: Situation, limits: Limits, assignment: Assignment, choice: EffectChoice, sensor: Sensor | None
+) -> dict[str, Bound]:
+    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
+    bounds = dict(surface_bounds(situation))
+    if sensor is not None and sensor.mode == "reflective":
+        if not choice.wants_temperature:
+            unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
+            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN)}
+        apart = limits.greatest - limits.coldest
+        return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
+    factor = 1.0
+    if sensor is not None:
+        least = float(assignment.emissivity.min(initial=1.0))
+        table = build_band_table(sensor.band)
+        factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest, emissivity=least)
+    return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
+
+
+def _spared(environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
+    """What need not be solved because no surface shows it: exact, and most of the time that a bake takes."""
+    whole = whole_scope(assignment.wall_types, settings).columns
+    turned = EffectPlan(off=("spare_orientations",))
+    seen = _scope(environment, assignment, scene, settings, turned).columns
+    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances")).columns
+    samples = environment.time.size
+    return {
+        "spare_orientations": Bound(
+            value=0.0, reason=f"surfaces show {seen} of {whole} histories", saves=march_cost(whole - seen, samples)
+        ),
+        "spare_reflectances": Bound(
+            value=0.0, reason=f"surfaces need {shown} of these {seen}", saves=march_cost(seen - shown, samples)
+        ),
+    }
