@@ -5,6 +5,7 @@ import sys
 import typer
 from rich.console import Console
 
+from sensorsim.cli.effects import effects
 from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
@@ -19,7 +20,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for command in (render, gallery, scene, wall, info):
+for command in (render, gallery, effects, scene, wall, info):
     app.command()(command)
 
 

@@ -18,6 +18,9 @@ SceneName = Annotated[str, typer.Argument(help="Scene that comes with the packag
 Level = Annotated[str, typer.Option(help="Level of detail: IA, IIA or IIIB.")]
 Preset = Annotated[str, typer.Option(help="How finely to bake: report, standard or reference.")]
 Backend = Annotated[str, typer.Option(help="OpenGL back end: auto, egl, osmesa or x11.")]
+Effects = Annotated[
+    str, typer.Option(help="auto, all, none, or single effects: +name,-name; `sensorsim effects` lists them.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print figures as JSON.")]
 
 

@@ -12,6 +12,7 @@ from rich.console import Console
 from sensorsim.cli.options import (
     AsJson,
     Backend,
+    Effects,
     Level,
     Preset,
     SceneName,
@@ -21,6 +22,7 @@ from sensorsim.cli.options import (
     read_moment,
     read_size,
 )
+from sensorsim.effects import read_choice
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.frames import Frame, take_frame, write_frame
 from sensorsim.radiometry import build_band_table
@@ -52,6 +54,7 @@ def render(
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     preset: Preset = "standard",
+    effects: Effects = "auto",
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
@@ -63,16 +66,21 @@ def render(
     place = load_scene(scene, level=level)
     view = read_camera(place, camera, field_of_view)
     settings = bake_preset(preset)
+    wanted = [name for name in planes.split(",") if name]
+    choice = read_choice(effects)
+    if "surface_temperature" in wanted:
+        choice = choice.with_wanted("temperature")
     with bake_progress("baking") as progress:
         world = build_world(
-            place, find_weather(weather, moment.date()), image_day=moment.date(), settings=settings, progress=progress
-        )
+            place, find_weather(weather, moment.date()), image_day=moment.date(), settings=settings, progress=progress,
+            effects=choice, sensor=device,
+        )  # fmt: skip
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend) as renderer:
         frame = take_frame(renderer, view, moment, display=display)
     make_folder(out.parent)
-    files = write_frame(frame, out, planes=[name for name in planes.split(",") if name], plane_format=plane_format)
+    files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)
 
 

@@ -33,6 +33,10 @@ class EffectChoice:
             return name in self.wanted
         return {"auto": None, "all": True, "none": False}[self.base]
 
+    def with_wanted(self, name: str) -> "EffectChoice":
+        """The choice with one effect asked for as well; InputError where it is refused."""
+        return EffectChoice(base=self.base, wanted=self.wanted | {name}, refused=self.refused)
+
     @property
     def wants_temperature(self) -> bool:
         """Whether surface temperatures are asked for: as such, or by a term of theirs."""

@@ -3,8 +3,8 @@
 Measured once on one core of a server of 2024; `sensorsim study effects` measures them on the machine at hand.
 """
 
-PER_COLUMN_SAMPLE = 1.2e-3  # [ms] one wall type, orientation and reflectance, marched over one step
-PER_TERM_SAMPLE = 1.0e-5  # [ms] one term of the boundary at one orientation and sample
+PER_COLUMN_SAMPLE = 6e-4  # [ms] one wall type, orientation and reflectance, marched over one step
+PER_TERM_SAMPLE = 5e-6  # [ms] one term of the boundary at one orientation and sample
 
 
 def march_cost(columns: int, samples: int) -> float:

@@ -13,9 +13,10 @@ changes by no more than its part that changes most. Nothing changes by more than
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.effects.face import Face, FloatArray, Limits, interior_share, slope, temperature_limits
@@ -23,6 +24,7 @@ from sensorsim.effects.ledger import Bound
 from sensorsim.environment import Environment, circumsolar_irradiance, saturation_vapour_pressure
 
 HORIZON_WARMTH = 0.11  # at least that of the thermal sky of walls
+NONE = "none in the history"
 QUARTERS = ("sky_north", "sky_east", "sky_south", "sky_west")
 
 
@@ -62,13 +64,18 @@ class _Case:
         return self.face.latent * max(pressure, float(self.environment.vapour_pressure.max()))
 
     @property
+    def dry(self) -> "_Case":
+        """The same without vapour, whose bound is wide: for what is told of a term."""
+        return replace(self, face=replace(self.face, latent=0.0))
+
+    @property
     def per_flux(self) -> float:
         """Kelvin per absorbed flux [K m2 W-1]; a skin of water follows the flux itself besides."""
         return 1.0 / slope(self.face.emissivity, self.limits.coldest) + self.face.skin
 
-    def lit(self, irradiance: FloatArray) -> float:
+    def lit(self, irradiance: npt.ArrayLike) -> float:
         """Flux [W m-2] of an irradiance (t, m), with what it does to stomata and to the drying of a film of water."""
-        light = self.face.absorptance * float(irradiance.max(initial=0.0))
+        light = self.face.absorptance * float(np.max(irradiance, initial=0.0))
         return light + (self.latent if light > 0.0 and self.face.latent_by_light else 0.0)
 
     def warmed(self, apart: float, share: float) -> float:
@@ -105,10 +112,9 @@ def _worth(situation: Situation, limits: Limits, rule: Rule, reason: str) -> Bou
         min(seen + flux * case.per_flux, case.warmest - limits.coldest)
         for flux, case in zip(fluxes, cases, strict=True)
     ]
-    most = max([rule(soil), *fluxes])
     return Bound(
         value=max([min(ground, limits.ground - limits.coldest), *kelvin]),
-        reason=reason.format(most) if most > 0.0 else "none in the history",
+        reason=reason.format(max(rule(case.dry) for case in (soil, *cases))) if any((ground, *fluxes)) else NONE,
     )
 
 
@@ -191,7 +197,7 @@ _RULES: Mapping[str, tuple[Rule, str]] = {
     "forced_convection": (_forced, "the wind may carry {:.3g} W m-2"),
     "free_convection": (_free, "free convection may carry {:.3g} W m-2"),
     "rain": (_rain, "rain may take {:.3g} W m-2"),
-    "evaporation": (lambda case: case.latent, "vapour may carry {:.3g} W m-2"),
+    "evaporation": (lambda case: case.latent, "surfaces are wet, or give off vapour when dry"),
 }
 
 

@@ -1,5 +1,7 @@
 """Which effects one frame calls for, once its camera, its moment and the world's tables are known."""
 
+from typing import Protocol
+
 import numpy as np
 
 from sensorsim.effects import (
@@ -7,7 +9,9 @@ from sensorsim.effects import (
     EFFECTS,
     FRAME,
     NOISE_SHARE,
+    EffectChoice,
     Ledger,
+    Limits,
     Look,
     applicable,
     decide,
@@ -15,41 +19,73 @@ from sensorsim.effects import (
     reflective_bounds,
     reflective_tolerance,
 )
-from sensorsim.radiometry import BandTable
+from sensorsim.radiometry import BandTable, build_band_table
 from sensorsim.render.camera import Camera
-from sensorsim.render.illumination import Illumination
+from sensorsim.render.illumination import Illumination, illuminate
 from sensorsim.render.ranges import ground_range, longest_range
-from sensorsim.render.world import World
+from sensorsim.render.survey import Survey
+from sensorsim.scene import Scene
+from sensorsim.sensor import Sensor
+from sensorsim.tables.assign import Assignment
+from sensorsim.thermal import ground_temperature
+
+
+class Decided(Protocol):
+    """A scene whose effects of the surface are decided: a survey, or a decided."""
+
+    @property
+    def scene(self) -> Scene: ...  # noqa: D102
+    @property
+    def assignment(self) -> Assignment: ...  # noqa: D102
+    @property
+    def choice(self) -> EffectChoice: ...  # noqa: D102
+    @property
+    def ledger(self) -> Ledger: ...  # noqa: D102
+    @property
+    def limits(self) -> Limits: ...  # noqa: D102
 
 
 def frame_ledger(
-    world: World, table: BandTable | None, camera: Camera, size: tuple[int, int], illumination: Illumination
+    decided: Decided, table: BandTable | None, camera: Camera, size: tuple[int, int], illumination: Illumination
 ) -> Ledger:
-    """The world's ledger and the effects of one frame; `table` is that of the band of an emissive sensor."""
-    effects = tuple(effect for effect in EFFECTS if effect.stage == FRAME)
-    look = _look(world, camera, size, illumination)
-    sky = world.tables.settings.sky
+    """The ledger with the effects of one frame; `table` is that of the band of an emissive sensor."""
+    look = _look(decided, camera, size, illumination)
+    mode = "reflective" if table is None else "emissive"
+    effects = applicable((effect for effect in EFFECTS if effect.stage == FRAME), sky="", mode=mode)
     if table is None:
         rows = decide(
-            applicable(effects, sky=sky, mode="reflective"), reflective_bounds(look), world.choice,
-            tolerance=reflective_tolerance(look), unit="W m-2 sr-1",
-        )  # fmt: skip
+            effects, reflective_bounds(look), decided.choice, tolerance=reflective_tolerance(look), unit="W m-2 sr-1"
+        )
     else:
         rows = decide(
-            applicable(effects, sky=sky, mode="emissive"), emissive_bounds(look, table), world.choice,
-            tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K", spent=world.ledger.spent,
+            effects, emissive_bounds(look, table), decided.choice, tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K",
+            spent=decided.ledger.spent,
         )  # fmt: skip
-    return world.ledger.with_rows(rows)
+    return decided.ledger.with_rows(rows)
 
 
-def _look(world: World, camera: Camera, size: tuple[int, int], illumination: Illumination) -> Look:
+def survey_ledger(survey: Survey, sensor: Sensor, camera: Camera, size: tuple[int, int], time_of_day: float) -> Ledger:
+    """The same before anything is baked, at a time of the image day [s]; of the scene only the ground is solved."""
+    table, ground = None, float("nan")
+    if sensor.mode == "emissive":
+        table = build_band_table(sensor.band)
+        history = ground_temperature(
+            survey.environment, survey.ground, sky=survey.settings.sky, plan=survey.ledger.plan
+        )
+        day = history[survey.environment.image_window]
+        ground = float(np.interp(time_of_day / survey.environment.step, np.arange(day.size), day))
+    illumination = illuminate(sensor, survey.environment.at(time_of_day), ground, table)
+    return frame_ledger(survey, table, camera, size, illumination)
+
+
+def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination: Illumination) -> Look:
     return Look(
-        normal=world.scene.surfaces.normal,
-        emissivity=world.assignment.emissivity,
-        reflectance=world.assignment.nir_reflectance,
-        coldest=world.limits.coldest,
-        warmest=world.limits.greatest,
-        longest_range=longest_range(camera, size, world.scene.mesh),
+        normal=decided.scene.surfaces.normal,
+        emissivity=decided.assignment.emissivity,
+        reflectance=decided.assignment.nir_reflectance,
+        coldest=decided.limits.coldest,
+        warmest=decided.limits.greatest,
+        longest_range=longest_range(camera, size, decided.scene.mesh),
         ground_range=ground_range(camera, size),
         sun_direction=np.asarray(illumination.sun_direction),
         beam=illumination.beam,

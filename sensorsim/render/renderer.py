@@ -113,7 +113,7 @@ class Renderer:
         ctx, world = self.ctx, self.world
         surfaces, mesh = world.scene.surfaces, world.scene.mesh
         records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
-        coefficients = world.tables.coefficients[0]
+        coefficients = _read_or_not(world.tables.coefficients[0].astype(np.float64))
         band = self._band_lookup()
         sky = LookupTable(
             name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
@@ -164,7 +164,7 @@ class Renderer:
 
     def _set_moment(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
         if plan.has("temperature"):
-            coefficients = self.world.tables.at(time_of_day)
+            coefficients = _read_or_not(self.world.tables.at(time_of_day))
             update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
         update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
         self._blocks["Illumination"].write(
@@ -245,3 +245,8 @@ def _require_temperature(world: World, sensor: Sensor) -> None:
     if sensor.mode == "emissive" and not world.ledger.plan.has("temperature"):
         problem = "needs surface temperatures, which this world was built without"
         raise InputError("renderer", "sensor", sensor.name, problem, "build the world for this sensor, or with them")
+
+
+def _read_or_not(coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coefficients with 0 for those that were not solved (NaN): no surface reads them, and textures hold numbers."""
+    return np.nan_to_num(coefficients, nan=0.0)

@@ -74,31 +74,21 @@ def survey_scene(
     With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
     """
     catalogue = load_catalogue() if catalogue is None else catalogue
+    mode = "emissive" if sensor is None else sensor.mode
+    choice.require_inputs(sky=settings.sky, mode=mode)
     environment = build_environment(
         weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
     )
-    choice.require_inputs(sky=settings.sky, mode="emissive" if sensor is None else sensor.mode)
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     if choice.asked("snow") is False:
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
-    needed = _scope(environment, assignment, scene, settings, EffectPlan(off=("spare_orientations",)))
-    situation = Situation(
-        environment=environment,
-        faces=scene_faces(environment, assignment, needed, settings),
-        ground=ground_face(environment, ground, settings),
-    )
+    situation = _situation(environment, scene, assignment, ground, settings)
     limits = situation.limits
-    bounds = {
-        **_worth(situation, limits, assignment, choice, sensor),
-        **_spared(environment, assignment, scene, settings),
-    }
-    effects = applicable(
-        (effect for effect in EFFECTS if effect.stage == SURFACE),
-        sky=settings.sky,
-        mode="emissive" if sensor is None else sensor.mode,
-    )
+    effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
+    bounds = _worth(situation, limits, assignment, choice, sensor)
+    bounds.update(_spared(environment, assignment, scene, settings))
     return Survey(
         scene=scene,
         environment=environment,
@@ -109,6 +99,18 @@ def survey_scene(
         choice=choice,
         ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K")),
         limits=limits,
+    )
+
+
+def _situation(
+    environment: Environment, scene: Scene, assignment: Assignment, ground: WallType, settings: BakeSettings
+) -> Situation:
+    """Faces of all orientations that the scene shows; others do not matter to it."""
+    shown = _scope(environment, assignment, scene, settings, EffectPlan(off=("spare_orientations",)))
+    return Situation(
+        environment=environment,
+        faces=scene_faces(environment, assignment, shown, settings),
+        ground=ground_face(environment, ground, settings),
     )
 
 

@@ -6,7 +6,7 @@ from datetime import date
 from sensorsim.effects import EffectChoice, Ledger, Limits
 from sensorsim.environment import Environment, Weather, place_mismatch
 from sensorsim.materials import Catalogue
-from sensorsim.render.survey import EVERY_EFFECT, survey_scene
+from sensorsim.render.survey import EVERY_EFFECT, Survey, survey_scene
 from sensorsim.scene import Scene
 from sensorsim.sensor import Sensor
 from sensorsim.tables import BakeSettings, ShadeTables, cached_tables, unbaked_tables
@@ -51,19 +51,6 @@ def build_world(
     survey = survey_scene(
         scene, weather, image_day=image_day, settings=settings, catalogue=catalogue, choice=effects, sensor=sensor
     )
-    plan = survey.ledger.plan
-    if plan.has("temperature"):
-        tables = cached_tables(
-            survey.environment,
-            survey.assignment.wall_types,
-            ground=survey.ground,
-            settings=settings,
-            progress=progress,
-            plan=plan,
-            scope=survey.scope,
-        )
-    else:
-        tables = unbaked_tables(survey.environment, survey.assignment.wall_types, settings)
     site = scene.site
     clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
@@ -73,9 +60,20 @@ def build_world(
         environment=survey.environment,
         season=survey.season,
         assignment=survey.assignment,
-        tables=tables,
+        tables=_tables(survey, progress),
         warnings=() if mismatch is None else (mismatch,),
         choice=effects,
         ledger=survey.ledger,
         limits=survey.limits,
     )
+
+
+def _tables(survey: Survey, progress: Progress | None) -> ShadeTables:
+    """Tables of what is to be solved; without any number where no temperature is."""
+    plan, walls = survey.ledger.plan, survey.assignment.wall_types
+    if not plan.has("temperature"):
+        return unbaked_tables(survey.environment, walls, survey.settings)
+    return cached_tables(
+        survey.environment, walls, ground=survey.ground, settings=survey.settings, progress=progress, plan=plan,
+        scope=survey.scope,
+    )  # fmt: skip

@@ -10,6 +10,7 @@ from sensorsim.tables.orientations import FloatArray
 from sensorsim.tables.scope import Scope, plain_walls
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.air_properties import pressure_at
+from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.heat_balance import expose, solar_irradiance
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.natural import FREE_DIFFERENCE, STILL_WATER_CONDUCTIVITY, surface_boundary
@@ -42,39 +43,45 @@ def wall_face(
     environment: Environment, wall: WallType, normal: FloatArray, absorptance: float, settings: BakeSettings
 ) -> Face:
     """Face of a plain wall type with orientations (m, 3) and its greatest solar absorptance [-]."""
-    air = environment.air_temperature
     # Films do not depend on the ground's temperature, which is not known yet.
-    exposure = expose(environment, normal, air, sky=settings.sky)
+    exposure = expose(environment, normal, environment.air_temperature, sky=settings.sky)
     # A dark horizon takes light away, which a surface has without it.
     lighter = solar_irradiance(environment, normal, sky=settings.sky, plan=EVERYTHING.without("sky_horizon"))
-    dry = EVERYTHING.without("rain")
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=dry)
+    outside = surface_boundary(
+        environment, exposure, wall, correlation=settings.convection, plan=EVERYTHING.without("rain")
+    )
     rain = float(rain_film(caught_rain(environment, normal)).max(initial=0.0))
-    forced, free = float(outside.film.max(initial=0.0)), float(outside.free.max(initial=0.0))
     cover = wall.cover
     by_light = rain > 0.0 or (cover is not None and cover.leaf_area_index > 0.0)
-    latent = float(outside.latent.max(initial=0.0))
-    if by_light:
-        least = float(psychrometric_constant(air, pressure_at(environment.site.altitude)).min())
-        latent = float(np.cbrt((forced + rain) ** 3 + FREE_DIFFERENCE * free)) / least
-    inside = build_interior(
-        wall.interior, air, environment.wind_speed, environment.step, wall.interior_emissivity, room=wall.room,
-        heat_gain=wall.heat_gain,
-    )  # fmt: skip
     return Face(
         name=wall.name,
         normal=normal,
         absorptance=absorptance,
         light=max(float(exposure.irradiance.max(initial=0.0)), float(lighter.max(initial=0.0))),
         emissivity=wall.emissivity,
-        forced=forced,
-        free=free,
+        forced=float(outside.film.max(initial=0.0)),
+        free=float(outside.free.max(initial=0.0)),
         rain=rain,
-        latent=latent,
+        latent=_latent(environment, outside, rain) if by_light else float(outside.latent.max(initial=0.0)),
         latent_by_light=by_light,
         snow=cover is not None and cover.kind == "snow",
         traffic=0.0 if cover is None else cover.traffic_heat,
         skin=0.0 if cover is None else cover.skin / STILL_WATER_CONDUCTIVITY,
-        indoors=(float(inside.air.min()), float(inside.air.max())),
+        indoors=_indoors(environment, wall),
         paths=tuple(path.layers for path in wall.paths) or (wall.layers,),
     )
+
+
+def _latent(environment: Environment, outside: Outside, rain: float) -> float:
+    """Vapour exchange [W m-2 Pa-1] of the surface if it were all wet."""
+    film = np.cbrt((outside.film + rain) ** 3 + FREE_DIFFERENCE * outside.free).max(initial=0.0)
+    pressure = pressure_at(environment.site.altitude)
+    return float(film / psychrometric_constant(environment.air_temperature, pressure).min())
+
+
+def _indoors(environment: Environment, wall: WallType) -> tuple[float, float]:
+    inside = build_interior(
+        wall.interior, environment.air_temperature, environment.wind_speed, environment.step,
+        wall.interior_emissivity, room=wall.room, heat_gain=wall.heat_gain,
+    )  # fmt: skip
+    return float(inside.air.min()), float(inside.air.max())
