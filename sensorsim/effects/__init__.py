@@ -7,12 +7,13 @@ them by the user's `EffectChoice`; the `EffectPlan` that comes out is what march
 
 from sensorsim.effects.catalogue import EFFECTS, FRAME, NOT_MODELLED, SUNLIGHT, SURFACE, Effect
 from sensorsim.effects.choice import EffectChoice, applicable, read_choice
-from sensorsim.effects.costs import march_cost
+from sensorsim.effects.costs import march_cost, term_cost
 from sensorsim.effects.face import Face, Limits, temperature_limits
 from sensorsim.effects.frame_bounds import (
     Look,
     apparent_factor,
     emissive_bounds,
+    opacity,
     reflective_bounds,
     reflective_tolerance,
 )
@@ -45,9 +46,11 @@ __all__ = [
     "decide",
     "emissive_bounds",
     "march_cost",
+    "opacity",
     "read_choice",
     "reflective_bounds",
     "reflective_tolerance",
     "surface_bounds",
     "temperature_limits",
+    "term_cost",
 ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.constants import PI
+from sensorsim.effects.costs import pixel_cost
 from sensorsim.effects.face import FloatArray
 from sensorsim.effects.ledger import NOISE_SHARE, Bound
 from sensorsim.radiometry import BandTable
@@ -20,8 +21,8 @@ class Look:
     normal: FloatArray  # (s, 3) of all surfaces
     emissivity: FloatArray  # (s,) in band [-]
     reflectance: FloatArray  # (s,) in band [-]
-    coldest: float  # surface temperature that none is below [K]
-    warmest: float  # and that none is above [K]
+    coldest: float  # of all surfaces at the moment, or a bound of it [K]
+    warmest: float  # the same
     longest_range: float  # of any surface that may be in view [m]
     ground_range: float  # of the ground plane where it may be in view [m]; 0 where it is not, infinite at the horizon
     sun_direction: FloatArray  # (3,)
@@ -31,6 +32,7 @@ class Look:
     ground_radiance: float  # [W m-2 sr-1]
     air_radiance: float  # of an infinite path [W m-2 sr-1]
     attenuation: float  # [m-1]
+    pixels: int  # of the picture
 
 
 def apparent_factor(table: BandTable, *, coldest: float, warmest: float, emissivity: float) -> float:
@@ -43,16 +45,23 @@ def apparent_factor(table: BandTable, *, coldest: float, warmest: float, emissiv
     return _slope_at(table, warmest) / _slope_of_radiance(table, emissivity * float(_radiance(table, coldest)))
 
 
-def emissive_bounds(look: Look, table: BandTable) -> Mapping[str, Bound]:
-    """Bounds [K] of apparent temperature."""
-    least_emissivity = float(look.emissivity.min(initial=1.0))
-    mirrored = (1.0 - least_emissivity) * max(look.sky_radiance, look.ground_radiance)
-    dimmest = least_emissivity * _radiance(table, look.coldest)
-    brightest = max(_radiance(table, look.warmest), look.sky_radiance, look.ground_radiance)
-    per_radiance = 1.0 / _slope_of_radiance(table, min(dimmest, look.air_radiance, look.ground_radiance))
+def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> Mapping[str, Bound]:
+    """Bounds [K] of apparent temperature; `mirrored` False where the user has left the reflected sky out.
+
+    The path takes (1 - tau) |L - L_air| of a surface that mirrors its surroundings; leaving these out as well adds its
+    own bound, so that the sum holds for both.
+    """
+    least = float(look.emissivity.min(initial=1.0))
+    surroundings = (look.sky_radiance, look.ground_radiance)
+    emitted = least * _radiance(table, look.coldest)
+    dimmest = emitted + ((1.0 - least) * min(*surroundings, _radiance(table, look.coldest)) if mirrored else 0.0)
+    brightest = max(_radiance(table, look.warmest), *surroundings)
+    arriving = min(look.air_radiance, look.ground_radiance)
+    lost = (1.0 - least) * max(surroundings) / _slope_of_radiance(table, min(emitted, arriving))
+    kelvin = 1.0 / _slope_of_radiance(table, min(dimmest, arriving))
     return {
-        "reflected_sky": Bound(value=mirrored * per_radiance, reason=f"least emissivity {least_emissivity:.3g}"),
-        "atmosphere": _air(look, dimmest, brightest, per_radiance),
+        "reflected_sky": Bound(value=lost, reason=f"least emissivity {least:.3g}", saves=pixel_cost(look.pixels)),
+        "atmosphere": _air(look, dimmest, brightest, kelvin),
     }
 
 
@@ -65,7 +74,7 @@ def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     brightest = direct + float(np.max(share * (sky + ground), initial=0.0))
     return {
         "reflected_sun": Bound(
-            value=direct, reason="the sun lights surfaces" if direct > 0.0 else "the sun lights none"
+            value=direct, reason="the sun lights surfaces" if direct > 0.0 else "no sun", saves=pixel_cost(look.pixels)
         ),
         "atmosphere": _air(look, 0.0, brightest, 1.0),
     }
@@ -78,17 +87,19 @@ def reflective_tolerance(look: Look) -> float:
 
 def _air(look: Look, dimmest: float, brightest: float, scale: float) -> Bound:
     """(1 - tau) |L - L_air| for surfaces and, where it is in view, for the ground plane, times `scale`."""
-    lost = _opacity(look.attenuation, look.longest_range)
+    lost = opacity(look.attenuation, look.longest_range)
     apart = max(brightest - look.air_radiance, look.air_radiance - dimmest, 0.0)
-    ground = _opacity(look.attenuation, look.ground_range) * abs(look.ground_radiance - look.air_radiance)
+    ground = opacity(look.attenuation, look.ground_range) * abs(look.ground_radiance - look.air_radiance)
     worst = max(look.longest_range, look.ground_range)
     path = f"of up to {worst:,.0f} m" if np.isfinite(worst) else "to the horizon"
     return Bound(
-        value=scale * max(lost * apart, ground), reason=f"a path {path} at {look.attenuation * 1000:.3g} per km"
+        value=scale * max(lost * apart, ground),
+        reason=f"a path {path} at {look.attenuation * 1000:.3g} per km",
+        saves=pixel_cost(look.pixels),
     )
 
 
-def _opacity(attenuation: float, distance: float) -> float:
+def opacity(attenuation: float, distance: float) -> float:
     """1 - tau [-]; an infinite path through clear vacuum takes nothing."""
     return -float(np.expm1(-attenuation * distance)) if attenuation > 0.0 else 0.0
 

@@ -64,6 +64,11 @@ class _Case:
         return self.face.latent * max(pressure, float(self.environment.vapour_pressure.max()))
 
     @property
+    def down(self) -> float:
+        """Greatest share of the ground in a hemisphere [-]."""
+        return float(np.max(1.0 - _upwards(self), initial=0.0))
+
+    @property
     def dry(self) -> "_Case":
         """The same without vapour, whose bound is wide: for what is told of a term."""
         return replace(self, face=replace(self.face, latent=0.0))
@@ -109,7 +114,7 @@ def _worth(situation: Situation, limits: Limits, rule: Rule, reason: str) -> Bou
     fluxes = [rule(case) for case in cases]
     # No change is greater than all that the limits leave.
     kelvin = [
-        min(seen + flux * case.per_flux, case.warmest - limits.coldest)
+        min(seen * case.down + flux * case.per_flux, case.warmest - limits.coldest)
         for flux, case in zip(fluxes, cases, strict=True)
     ]
     return Bound(
@@ -169,7 +174,7 @@ def _thermal_sky(case: _Case) -> float:
 def _ground(case: _Case) -> float:
     air, limits = case.environment.air_temperature, case.limits
     apart = max(limits.ground**4 - float(air.min()) ** 4, float(air.max()) ** 4 - limits.coldest**4)
-    return case.warmed(apart, float(np.max(1.0 - _upwards(case))))
+    return case.warmed(apart, case.down)
 
 
 def _forced(case: _Case) -> float:

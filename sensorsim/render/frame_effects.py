@@ -1,5 +1,7 @@
 """Which effects one frame calls for, once its camera, its moment and the world's tables are known."""
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -16,6 +18,7 @@ from sensorsim.effects import (
     applicable,
     decide,
     emissive_bounds,
+    opacity,
     reflective_bounds,
     reflective_tolerance,
 )
@@ -28,6 +31,8 @@ from sensorsim.scene import Scene
 from sensorsim.sensor import Sensor
 from sensorsim.tables.assign import Assignment
 from sensorsim.thermal import ground_temperature
+
+SHORT = 0.02  # [-] opacity of a path below which leaving it out is worth a closer look
 
 
 class Decided(Protocol):
@@ -46,9 +51,14 @@ class Decided(Protocol):
 
 
 def frame_ledger(
-    decided: Decided, table: BandTable | None, camera: Camera, size: tuple[int, int], illumination: Illumination
-) -> Ledger:
-    """The ledger with the effects of one frame; `table` is that of the band of an emissive sensor."""
+    decided: Decided, table: BandTable | None, camera: Camera, size: tuple[int, int], illumination: Illumination, *,
+    extremes: Callable[[], tuple[float, float]] | None = None,
+) -> Ledger:  # fmt: skip
+    """The ledger with the effects of one frame; `table` is that of the band of an emissive sensor.
+
+    `extremes` gives the coldest and the warmest surface of the moment [K], where they are known. It is called only
+    where the path is so short that the limits of all times might be too wide for it.
+    """
     look = _look(decided, camera, size, illumination)
     mode = "reflective" if table is None else "emissive"
     effects = applicable((effect for effect in EFFECTS if effect.stage == FRAME), sky="", mode=mode)
@@ -57,9 +67,13 @@ def frame_ledger(
             effects, reflective_bounds(look), decided.choice, tolerance=reflective_tolerance(look), unit="W m-2 sr-1"
         )
     else:
+        if extremes is not None and opacity(look.attenuation, look.longest_range) < SHORT:
+            coldest, warmest = extremes()
+            look = replace(look, coldest=coldest, warmest=warmest)
+        mirrored = decided.choice.asked("reflected_sky") is not False
         rows = decide(
-            effects, emissive_bounds(look, table), decided.choice, tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K",
-            spent=decided.ledger.spent,
+            effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
+            tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
     return decided.ledger.with_rows(rows)
 
@@ -94,4 +108,5 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
         ground_radiance=illumination.ground_radiance,
         air_radiance=illumination.air_radiance,
         attenuation=illumination.attenuation,
+        pixels=size[0] * size[1],
     )

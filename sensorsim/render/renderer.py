@@ -22,7 +22,7 @@ from sensorsim.render.surface_table import surface_table
 from sensorsim.render.variants import background_defines, surface_defines
 from sensorsim.render.world import World
 from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
-from sensorsim.tables import LookupTable
+from sensorsim.tables import LookupTable, surface_temperature
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 
 _BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
@@ -85,7 +85,10 @@ class Renderer:
         """
         if illumination is None:
             illumination = self.illuminate(time_of_day)
-        ledger = frame_ledger(self.world, self.band_table, camera, self.size, illumination)
+        ledger = frame_ledger(
+            self.world, self.band_table, camera, self.size, illumination,
+            extremes=lambda: self._extremes(time_of_day),
+        )  # fmt: skip
         with self.ctx:  # another renderer's context may have become the current one
             self._set_moment(time_of_day, illumination, ledger.plan)
             self._draw(camera, ledger.plan)
@@ -108,6 +111,15 @@ class Renderer:
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
         return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
+
+    def _extremes(self, time_of_day: float) -> tuple[float, float]:
+        """Coldest and warmest surface of the scene [K] at a time of the image day [s]."""
+        world = self.world
+        found = surface_temperature(
+            world.tables, world.scene.surfaces.normal, world.assignment.wall_type, world.assignment.reflectance,
+            time_of_day,
+        )  # fmt: skip
+        return float(found.min()), float(found.max())
 
     def _build(self) -> None:
         ctx, world = self.ctx, self.world

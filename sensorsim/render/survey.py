@@ -22,6 +22,7 @@ from sensorsim.effects import (
     decide,
     march_cost,
     surface_bounds,
+    term_cost,
 )
 from sensorsim.environment import Environment, Weather, build_environment
 from sensorsim.materials import Catalogue, WallType, load_catalogue
@@ -127,7 +128,7 @@ def _worth(
     situation: Situation, limits: Limits, assignment: Assignment, choice: EffectChoice, sensor: Sensor | None
 ) -> dict[str, Bound]:
     """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
-    bounds = dict(surface_bounds(situation))
+    bounds = _priced(situation)
     if sensor is not None and sensor.mode == "reflective":
         if not choice.wants_temperature:
             unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
@@ -140,6 +141,13 @@ def _worth(
         table = build_band_table(sensor.band)
         factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest, emissivity=least)
     return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
+
+
+def _priced(situation: Situation) -> dict[str, Bound]:
+    """Bounds with the time that each term takes: a term of light or long waves at every orientation and sample."""
+    orientations = sum(face.normal.shape[0] for face in situation.faces)
+    saves = term_cost(orientations, situation.environment.time.size)
+    return {name: replace(bound, saves=saves) for name, bound in surface_bounds(situation).items()}
 
 
 def _spared(environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
