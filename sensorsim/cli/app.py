@@ -10,6 +10,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.study_effects import effects as study_effects
 from sensorsim.cli.wall import wall
 from sensorsim.errors import InputError, SensorsimError
 
@@ -22,6 +23,9 @@ app = typer.Typer(
 )
 for command in (render, gallery, effects, scene, wall, info):
     app.command()(command)
+study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
+study.command("effects")(study_effects)
+app.add_typer(study, name="study")
 
 
 def main() -> None:

@@ -5,7 +5,7 @@ from sensorsim.render.frame_effects import survey_ledger
 from sensorsim.render.illumination import Illumination, illuminate
 from sensorsim.render.renderer import Picture, Renderer
 from sensorsim.render.survey import EVERY_EFFECT, Survey, survey_scene
-from sensorsim.render.world import World, build_world
+from sensorsim.render.world import World, build_world, world_of
 
 __all__ = [
     "EVERY_EFFECT",
@@ -21,4 +21,5 @@ __all__ = [
     "station_camera",
     "survey_ledger",
     "survey_scene",
+    "world_of",
 ]

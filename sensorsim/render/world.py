@@ -51,8 +51,13 @@ def build_world(
     survey = survey_scene(
         scene, weather, image_day=image_day, settings=settings, catalogue=catalogue, choice=effects, sensor=sensor
     )
-    site = scene.site
-    clock = site.utc_offset if len(scene.files) > 1 else None  # outlines without a place file have a guessed clock
+    return world_of(survey, weather, _tables(survey, progress))
+
+
+def world_of(survey: Survey, weather: Weather, tables: ShadeTables) -> World:
+    """The surveyed scene with its tables."""
+    site = survey.scene.site
+    clock = site.utc_offset if len(survey.scene.files) > 1 else None  # outlines without a place file guess their clock
     mismatch = place_mismatch(weather.site, site.longitude, site.latitude, utc_offset=clock)
     return World(
         scene=survey.scene,
@@ -60,9 +65,9 @@ def build_world(
         environment=survey.environment,
         season=survey.season,
         assignment=survey.assignment,
-        tables=_tables(survey, progress),
+        tables=tables,
         warnings=() if mismatch is None else (mismatch,),
-        choice=effects,
+        choice=survey.choice,
         ledger=survey.ledger,
         limits=survey.limits,
     )
