@@ -1,10 +1,11 @@
 """What the commands print and write when all is well."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import imageio.v3 as imageio
 import numpy as np
@@ -12,7 +13,10 @@ import pytest
 from small_world import LATITUDE, LONGITUDE, box, feature, town_features, write_town
 
 from sensorsim.cli import main
-from sensorsim.frames import read_plane
+from sensorsim.cli.app import app
+from sensorsim.errors import InputError
+from sensorsim.frames import plane_names, read_plane, require_writable
+from sensorsim.sensor import load_sensor
 
 AT = "1976-02-07T10:00"
 
@@ -172,3 +176,55 @@ def test_module_runs_as_a_program() -> None:
     assert result.stdout == ""
     assert result.stderr.startswith("sensorsim: nowhere: scene = 'nowhere': no such scene or file; use one of hospital")
     assert result.stderr.count("\n") == 1
+
+
+COMMANDS = sorted(str(command.callback.__name__) for command in app.registered_commands if command.callback)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_keeps_what_stands_in_brackets(
+    command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Every bracket of a command's own help texts is on its page: markup would take units for styles."""
+    monkeypatch.setenv("COLUMNS", "400")
+    entry = next(one for one in app.registered_commands if one.callback and one.callback.__name__ == command)
+    hints = get_type_hints(entry.callback, include_extras=True).values()
+    texts = [str(option.help or "") for hint in hints for option in getattr(hint, "__metadata__", ())]
+    wanted = [mark for text in texts for mark in re.findall(r"\[[^\]]*\]", text)]
+    _run(monkeypatch, command, "--help")
+    page = capsys.readouterr().out
+    assert all(page.count(mark) >= wanted.count(mark) for mark in wanted)
+    if command == "render":
+        assert {"[deg]", "[K]"} <= set(wanted)
+
+
+@pytest.mark.parametrize(
+    ("at", "day", "hour"),
+    [
+        ("1976-02-07T23:30", "1976-02-07", 23.5),
+        ("1976-02-08T04:30+00:00", "1976-02-07", 23.5),
+        ("1976-02-06T23:30-06:00", "1976-02-07", 0.5),
+        ("1976-02-07T14:00+09:00", "1976-02-07", 0.0),
+    ],
+)
+def test_a_moment_of_another_clock_falls_on_the_sites_day(
+    at: str, day: str, hour: float, monkeypatch: pytest.MonkeyPatch, town: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "frame.png"
+    words = ("--at", at, "--out", out, "--size", "16x12", "--preset", "report")
+    _run(monkeypatch, "render", town, *words, "--weather", "winter")
+    settings = json.loads(out.with_suffix(".json").read_text())["settings"]
+    assert settings["day"] == day
+    assert settings["time_of_day_s"] == 3600.0 * hour
+
+
+def test_planes_known_ahead_are_those_of_the_frame(monkeypatch: pytest.MonkeyPatch, town: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError) as refused:
+        require_writable("x.png", plane_names(load_sensor("lltv")), planes=["apparent_temperature"])
+    assert "radiance" in refused.value.remedy
+    for sensor in ("flir", "lltv", "uncooled", "emccd"):
+        names = [name for name in plane_names(load_sensor(sensor)) if name != "display"]
+        sidecar = _render(
+            monkeypatch, town, tmp_path / f"{sensor}.png", "--sensor", sensor, "--planes", ",".join(names)
+        )
+        assert sorted(plane["name"] for plane in sidecar["planes"]) == sorted(plane_names(load_sensor(sensor)))

@@ -66,7 +66,7 @@ Refuse = Callable[..., str]
         (("--at", "1976-02-07T25:00"), "--at = '1976-02-07T25:00'", "1976-02-07T10:00"),
         (("--at", "1981-05-01T10:00"), "'1981-05-01'", "winter"),
         (("--at", "1976-06-01T10:00", "--weather", "winter"), "image day = '1976-06-01'", "covers"),
-        (("--at", "1976-02-02T10:00", "--weather", "winter"), "lead-in", "ask for"),
+        (("--at", "1976-02-01T10:00", "--weather", "winter"), "image day = '1976-02-01'", "extend the file"),
     ],
 )
 def test_option_that_cannot_be_honoured_is_refused(
@@ -216,3 +216,16 @@ def test_long_value_is_cut_so_that_the_line_stays_one(refuse: Refuse, tmp_path: 
     told = refuse("render", "hospital", "--at", value, "--out", tmp_path / "x.png")
     assert "..." in told
     assert len(told) < 400
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--planes", "warmth"), ("--planes", "radiance", "--plane-format", "png"), ("--out", "x.jpg")],
+    ids=["plane", "format", "suffix"],
+)
+def test_what_cannot_be_written_is_refused_before_the_scene_is_read(
+    refuse: Refuse, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    """Rationale: a scene that is not there would be the error of a command that had begun to work."""
+    out = () if "--out" in words else ("--out", tmp_path / "x.png")
+    assert "nowhere" not in refuse("render", "nowhere", "--at", AT, *out, *words)

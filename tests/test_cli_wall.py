@@ -198,6 +198,76 @@ def test_construction_of_ones_own_needs_no_names(run: Run, tmp_path: Path) -> No
     assert (tmp_path / "new" / "out.csv").exists()
 
 
+STUDS = """shape = "slab"
+[path]
+panel = 0.85
+studs = 0.15
+[[layer]]
+path = "panel"
+thickness = 0.09
+conductivity = 0.04
+density = 20
+specific_heat = 1000
+[[layer]]
+path = "studs"
+thickness = 0.09
+conductivity = 0.14
+density = 530
+specific_heat = 1900
+"""
+TANK = """shape = "sphere"
+radius = 0.3
+[[layer]]
+thickness = 0.3
+conductivity = 2.0
+density = 1000
+specific_heat = 4000
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (STUDS, "parallel paths by share of the area: panel 0.85, studs 0.15; nodes are those of the widest"),
+        (TANK, "sphere of radius 0.3 m; heats are per exterior area"),
+        (TANK.replace("sphere", "cylinder").replace("thickness = 0.3", "thickness = 0.01"), "cylinder of radius 0.3 m"),
+    ],
+    ids=["studs", "solid", "pipe"],
+)
+def test_studs_and_curved_walls_are_marched_plotted_and_told(call: Run, tmp_path: Path, text: str, said: str) -> None:
+    (tmp_path / "stack.toml").write_text(text)
+    words = ("--construction", tmp_path / "stack.toml", "--nodes", "--plot", tmp_path / "figure.png", "--json")
+    code, out, err = call(GOOD, *REST, *words)
+    assert code == 0
+    assert said in err
+    assert ("it is solid" in err) == (text == TANK)
+    told = json.loads(out)
+    assert abs(told["heat_J_m2"]["relative_residual"]) < 1e-10
+    assert told["paths"] == ({"panel": 0.85, "studs": 0.15} if text == STUDS else {})
+    assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
+    _, result = read_columns(tmp_path / "out.csv")
+    assert sum(name.startswith("node_") for name in result) == told["nodes"]
+    assert all(np.all(np.isfinite(values)) for values in result.values())
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (TANK.replace("radius = 0.3\n", ""), "radius"),
+        (TANK.replace("thickness = 0.3", "thickness = 0.4"), "layers reach 0.4 m deep"),
+        (STUDS.replace("0.85", "0.5"), "path"),
+        (TANK.replace("sphere", "cube"), "shape"),
+    ],
+    ids=["no radius", "too thick", "shares", "cube"],
+)
+def test_constructions_that_cannot_be_are_refused(call: Run, tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "stack.toml").write_text(text)
+    code, out, err = call(GOOD, *REST, "--construction", tmp_path / "stack.toml")
+    assert (code, out) == (2, "")
+    assert message in err
+    assert err.count("\n") == 1
+
+
 # --- refusals ----------------------------------------------------------------------------------------------------
 
 HEAD = "time,air_temperature\n"
@@ -236,7 +306,15 @@ BAD: dict[str, tuple[str, tuple[str, ...], str]] = {
     "missing": (ROWS, REST[2:], "in.csv: column = 'sky_temperature': missing; add the column [C], or give --sky-temp"),
     "missing film": (ROWS, REST[:-2], "column = 'interior_film': missing; add the column [W m-2 K-1], or give"),
     "unknown column": (
-        ROWS.replace("air_temperature", "air_temprature"), REST, "line 1: column = 'air_temprature': unknown; rename",
+        ROWS.replace("air_temperature", "air_temprature"), REST,
+        "line 1: column = 'air_temprature': unknown; rename it to air_temperature, in C, or",
+    ),
+    "column with a unit": (
+        ROWS.replace("air_temperature", "Air Temperature [K]"), REST,
+        "line 1: column = 'Air Temperature [K]': unknown; rename it to air_temperature, in C, or remove it",
+    ),
+    "column of nothing": (
+        ROWS.replace("air_temperature", "rainfall"), REST, "line 1: column = 'rainfall': unknown; rename or remove it;",
     ),
     "column twice": (
         ROWS.replace("time,", "time,air_temperature,"), REST, "line 1: column = 'air_temperature': there twice",

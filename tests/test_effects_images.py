@@ -15,7 +15,7 @@ from sensorsim.effects import DEFAULT_NOISE, NOISE_SHARE, EffectChoice, EffectPl
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
 from sensorsim.render import EVERY_EFFECT, Camera, Renderer, World, build_world, look_at, station_camera
-from sensorsim.render.variants import all_surface_defines, background_defines, surface_defines
+from sensorsim.render.variants import all_plans, all_surface_defines, background_defines, surface_defines
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import load_sensor
 from sensorsim.study.gallery import FIGURES
@@ -164,9 +164,12 @@ def test_programs_of_all_plans_are_few_and_compile(tmp_path: Path) -> None:
     backgrounds = [background_defines(EffectPlan()), background_defines(EffectPlan(off=("atmosphere",)))]
     assert len(variants) + len(backgrounds) + 1 <= 16
     assert surface_defines(EffectPlan(), emissive=True) in variants
-    with Renderer(town(tmp_path, "all"), load_sensor("flir"), size=SIZE) as renderer, renderer.ctx:
-        for defines in variants:
-            renderer._pass("surfaces", defines)
-        for defines in backgrounds:
-            renderer._pass("background", defines)
-        assert len(renderer._passes) == len(variants) + len(backgrounds)
+    for sensor in ("flir", "lltv"):
+        with Renderer(town(tmp_path, "all"), load_sensor(sensor), size=SIZE) as renderer, renderer.ctx:
+            programs = renderer._programs
+            for plan in all_plans():
+                programs.surfaces(plan)
+                programs.background(plan)
+            drawn = [name for name, _ in programs.built]
+            assert drawn.count("surfaces") == sum(d["EMISSIVE"] == (sensor == "flir") for d in variants)
+            assert drawn.count("background") == len(backgrounds)

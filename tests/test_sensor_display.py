@@ -11,6 +11,7 @@ from sensorsim.sensor import (
     display_code,
     fix_window,
     grey_level,
+    tone_curve,
     window_from_temperatures,
     window_limits,
 )
@@ -139,3 +140,35 @@ def test_no_window_is_chosen_from_no_pixels():
 def test_impossible_tail_is_refused(tail):
     with pytest.raises(InputError, match="tail"):
         auto_window([1.0, 2.0], tail=tail)
+
+
+def test_gamma_brightens_the_middle_and_leaves_the_ends():
+    curve = tone_curve("linear", 2.2, [], 40.0, 50.0)
+    assert curve[[0, -1]].tolist() == [0.0, 1.0]
+    assert float(grey_level(45.0, WINDOW, curve)) == pytest.approx(0.5 ** (1.0 / 2.2), abs=2e-6)
+
+
+def test_equalisation_of_evenly_spread_radiance_is_a_straight_line():
+    radiance = np.linspace(40.0, 50.0, 400_000)
+    assert tone_curve("plateau", 1.0, radiance, 40.0, 50.0) == pytest.approx(np.linspace(0.0, 1.0, 512), abs=0.01)
+
+
+def test_equalisation_gives_grey_to_where_pixels_are_within_its_limits():
+    radiance = np.random.default_rng(4).normal(45.0, 0.3, 100_000)
+    curve = tone_curve("plateau", 1.0, radiance, 40.0, 50.0)
+    slope = np.diff(curve) * 511
+    assert (slope >= 0.0).all()
+    assert slope.max() <= 4.0 + 1e-9
+    middle = grey_level([44.7, 45.3], WINDOW, curve)
+    assert middle[1] - middle[0] > 2.5 * 0.06  # a straight line gives 0.06
+    assert curve[0] + curve[-1] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_equalisation_without_pixels_in_the_window_stays_straight():
+    assert tone_curve("plateau", 1.0, [1.0, 2.0], 40.0, 50.0) == pytest.approx(np.linspace(0.0, 1.0, 512), abs=1e-9)
+
+
+@pytest.mark.parametrize(("entry", "value"), [("tone", "magic"), ("gamma", 0.0), ("gamma", float("nan"))])
+def test_display_refuses_unknown_tones_and_gammas(entry, value):
+    with pytest.raises(InputError, match=entry):
+        DisplaySettings(**{entry: value})

@@ -29,8 +29,9 @@ def write_sensor(folder, *, sensor=None, band=None, display=None):
     return path
 
 
-def test_package_has_both_sensors_of_the_report():
-    assert sensor_names() == ["flir", "lltv"]
+def test_package_has_both_sensors_of_the_report_and_five_with_hardware():
+    assert sensor_names() == ["cooled_mwir", "emccd", "flir", "flir1977", "lltv", "sit1977", "uncooled"]
+    assert [name for name in sensor_names() if load_sensor(name).detector is None] == ["flir", "lltv"]
 
 
 @pytest.mark.parametrize(
@@ -108,7 +109,7 @@ def test_file_that_is_no_toml_is_refused(tmp_path, content):
 
 @pytest.mark.parametrize("name", ["radar", "missing.toml", "", "../sensors/flir"])
 def test_unknown_sensor_is_refused_with_the_known_ones(name):
-    with pytest.raises(InputError, match="use flir or lltv, or the path of a"):
+    with pytest.raises(InputError, match=r"use cooled_mwir or .*flir or .*lltv .*or the path of a"):
         load_sensor(name)
 
 

@@ -1,14 +1,16 @@
 """Exchange between near surfaces: crossed strings, horizons, obstacles, balance, and the bound on its effect."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
-from sensorsim.errors import InputError
+from sensorsim.errors import InputError, NumericsError
 from sensorsim.scene import load_scene
-from sensorsim.thermal.exchange import build_exchange, largest_possible_change, longwave_from_neighbours
+from sensorsim.thermal.exchange import build_exchange
+from sensorsim.thermal.neighbour_radiation import largest_possible_change, longwave_from_neighbours, radiosity
 from sensorsim.thermal.polygon_view_factors import outlines_of_mesh, outlines_of_polygons, view_factor_matrix
 from sensorsim.thermal.view_factors import _polygon_view_factor as factor_of_spherical_polygon
 from sensorsim.thermal.view_factors import ground_view_factor, sky_view_factor
@@ -214,13 +216,43 @@ def test_black_neighbours_replace_the_sky_by_their_own_emission(court):
 
 
 def test_a_mirror_shows_what_it_sees_itself(court):
-    """Neighbours of no emissivity have no temperature."""
-    ground = STEFAN_BOLTZMANN_CONSTANT * 280.0**4
-    dull = np.zeros(9)
+    """Neighbours of no emissivity have no temperature: they hand on what comes in, mirror after mirror."""
+    ground, dull = STEFAN_BOLTZMANN_CONSTANT * 280.0**4, np.zeros(9)
     still = longwave_from_neighbours(court, np.full(9, 280.0), dull, sky=250.0, ground=ground)
-    seen = 250.0 * court.sky_share + ground * (court.ground_share + court.neighbour_share)
-    expected = court.matrix() @ seen - 250.0 * court.sky_taken - ground * court.ground_taken
-    np.testing.assert_allclose(still, expected, atol=1e-10)
+    left = 250.0 * court.sky_share + ground * court.ground_share
+    seen = left.copy()
+    for _ in range(400):
+        seen = left + court.matrix() @ seen
+    hidden = 250.0 * court.sky_taken + ground * court.ground_taken
+    np.testing.assert_allclose(still, court.matrix() @ seen - hidden, atol=1e-9)
+    cold = longwave_from_neighbours(court, np.full(9, 200.0), dull, sky=250.0, ground=ground)
+    np.testing.assert_array_equal(cold, still)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_surfaces_give_each_other_sums_to_nothing(court, seed):
+    """All heat that grey surfaces gain in long waves comes from sky and ground: A_i F_ij = A_j F_ji."""
+    draw = np.random.default_rng(seed)
+    area = outlines_of_polygons(canyon(8.0, 10.0, half_length=30.0)).area
+    court = build_exchange(outlines_of_polygons(canyon(8.0, 10.0, half_length=30.0)), threshold=1e-9, rays=0)
+    emissivity, sent_by_sky, sent_by_ground = draw.uniform(0.05, 1.0, 9), 240.0, 390.0
+    black = STEFAN_BOLTZMANN_CONSTANT * draw.uniform(260.0, 320.0, 9) ** 4
+    sent = radiosity(court, emissivity * black, 1.0 - emissivity, sky=sent_by_sky, ground=sent_by_ground)
+    received = court.matrix() @ sent + sent_by_sky * court.sky_share + sent_by_ground * court.ground_share
+    gained = area @ (emissivity * (received - black))
+    outside = court.sky_share * (sent_by_sky - sent) + court.ground_share * (sent_by_ground - sent)
+    assert gained == pytest.approx(area @ outside, rel=1e-9)
+    assert np.max(np.abs(court.matrix() @ sent - court.neighbour_share * sent)) > 5.0  # [W m-2] they do give
+
+
+def test_surfaces_that_absorb_nothing_and_see_nothing_else_are_refused():
+    shut = build_exchange(
+        outlines_of_polygons(
+            [rectangle((0, 0, 0), (9e6, 0, 0), (0, 9e6, 0)), rectangle((0, 0, 1), (0, 9e6, 0), (9e6, 0, 0))]
+        )
+    )
+    with pytest.raises(NumericsError):
+        radiosity(replace(shut, factor=np.ones(2)), np.ones(2), np.ones(2), sky=1.0, ground=1.0)
 
 
 def test_a_series_of_times_equals_its_moments(court):

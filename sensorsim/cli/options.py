@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import date, datetime
+from datetime import date, datetime, timedelta, timezone
 from pathlib import Path
 from typing import Annotated
 
@@ -42,6 +42,11 @@ def read_moment(text: str) -> datetime:
     except ValueError as error:
         remedy = "write for example 1976-02-07T10:00"
         raise InputError("command line", "--at", text, "no ISO 8601 date and time", remedy) from error
+
+
+def local_day(moment: datetime, utc_offset: float) -> date:
+    """Date that a clock `utc_offset` [h] ahead of UTC shows; a moment without offset is by that clock already."""
+    return (moment if moment.tzinfo is None else moment.astimezone(timezone(timedelta(hours=utc_offset)))).date()
 
 
 def make_folder(folder: Path) -> None:

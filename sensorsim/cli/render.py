@@ -18,13 +18,14 @@ from sensorsim.cli.options import (
     SceneName,
     bake_progress,
     find_weather,
+    local_day,
     make_folder,
     read_moment,
     read_size,
 )
 from sensorsim.effects import read_choice
 from sensorsim.errors import InputError, NumericsError
-from sensorsim.frames import Frame, take_frame, write_frame
+from sensorsim.frames import Frame, plane_names, require_writable, take_frame, write_frame
 from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Renderer, build_world, station_camera
 from sensorsim.scene import Scene, load_scene
@@ -34,7 +35,9 @@ from sensorsim.tables import preset as bake_preset
 
 def render(
     scene: SceneName,
-    at: Annotated[str, typer.Option(help="Local standard time, ISO 8601: 1976-02-07T10:00.")],
+    at: Annotated[
+        str, typer.Option(help="Local standard time, ISO 8601: 1976-02-07T10:00, or with its own UTC offset.")
+    ],
     out: Annotated[Path, typer.Option(help="File of the picture: .png, or .exr, .npy, .tiff for planes alone.")],
     level: Level = "IIIB",
     sensor: Annotated[
@@ -54,6 +57,12 @@ def render(
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     preset: Preset = "standard",
+    exchange: Annotated[
+        bool,
+        typer.Option(
+            "--exchange", help="Near surfaces see each other by long waves and diffuse light, without shadows."
+        ),
+    ] = False,
     effects: Effects = "auto",
     backend: Backend = "auto",
     as_json: AsJson = False,
@@ -62,24 +71,26 @@ def render(
     device = load_sensor(sensor)
     pixels = device.size if size is None else read_size(size)
     display = _display(device, window, polarity)
-    moment = read_moment(at)
-    place = load_scene(scene, level=level)
-    view = read_camera(place, camera, field_of_view)
-    settings = bake_preset(preset)
     wanted = [name for name in planes.split(",") if name]
+    require_writable(out, plane_names(device), planes=wanted, plane_format=plane_format)
     choice = read_choice(effects)
     if "surface_temperature" in wanted:
         choice = choice.with_wanted("temperature")
+    moment = read_moment(at)
+    place = load_scene(scene, level=level)
+    view = read_camera(place, camera, field_of_view)
+    series = find_weather(weather, local_day(moment, place.site.utc_offset))
+    day = local_day(moment, series.site.utc_offset)
+    settings = replace(bake_preset(preset), exchange=exchange)
+    make_folder(out.parent)
     with bake_progress("baking") as progress:
         world = build_world(
-            place, find_weather(weather, moment.date()), image_day=moment.date(), settings=settings, progress=progress,
-            effects=choice, sensor=device,
-        )  # fmt: skip
+            place, series, image_day=day, settings=settings, progress=progress, effects=choice, sensor=device
+        )
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend) as renderer:
         frame = take_frame(renderer, view, moment, display=display)
-    make_folder(out.parent)
     files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)
 

@@ -19,7 +19,7 @@ from sensorsim.constants import SECONDS_PER_DAY, SECONDS_PER_HOUR, ZERO_CELSIUS
 from sensorsim.errors import InputError
 from sensorsim.materials import Construction, load_construction
 from sensorsim.study import plot_wall, require_plot
-from sensorsim.thermal import LONGEST_STEP, WallHistory, history_csv, march_wall, read_boundary, write_whole
+from sensorsim.thermal import LONGEST_STEP, WallHistory, history_csv, march_construction, read_boundary, write_whole
 from sensorsim.thermal.boundary_file import LONGEST_GAP, UNITS, option
 from sensorsim.thermal.wall import Progress as MarchProgress
 from sensorsim.thermal.wall_start import SETTLED
@@ -74,13 +74,13 @@ def wall(
     constants = {name: given[name] for name in UNITS if given[name] is not None}
     surface = {name: given[name] for name in ("absorptance", "emissivity", "interior_emissivity", "sky_view")}
     _require_options(surface, step, longest_gap, {"--out": out, "--plot": plot, "--boundary": boundary})
-    stack = _one_slab(load_construction(construction))
+    stack = load_construction(construction)
     gap = longest_gap * SECONDS_PER_HOUR
     series = read_boundary(boundary, constants=constants, emissivity=emissivity, sky_view=sky_view, longest_gap=gap)
     keep = nodes or plot is not None
     with _march_progress(stack.name) as progress:
-        history = march_wall(
-            stack.layers, series.boundary, **surface, step=step, start=start, lead_in=lead_in, keep_nodes=keep,
+        history = march_construction(
+            stack, series.boundary, **surface, step=step, start=start, lead_in=lead_in, keep_nodes=keep,
             progress=progress,
         )  # fmt: skip
     contents = {out: history_csv(history, series.time_text, nodes=nodes).encode()}
@@ -88,8 +88,21 @@ def wall(
         kind = plot.suffix.lower()
         contents[plot] = plot_wall(history, series.boundary, title=stack.name, start=series.start, kind=kind)
     write_whole(contents)
-    notes = [*series.notes, *start_notes(history)]
+    notes = [*series.notes, *stack_notes(stack, history), *start_notes(history)]
     _report(history, stack, notes, [str(path) for path in contents], as_json)
+
+
+def stack_notes(stack: Construction, history: WallHistory) -> list[str]:
+    """What a construction is beside layers one behind the other."""
+    notes = []
+    if stack.paths:
+        shares = ", ".join(f"{path.name} {path.fraction:.3g}" for path in stack.paths)
+        notes.append(f"parallel paths by share of the area: {shares}; nodes are those of the widest")
+    if stack.shape != "slab":
+        notes.append(f"{stack.shape} of radius {stack.radius:g} m; heats are per exterior area")
+    if history.grid.interior_area == 0.0:
+        notes.append("it is solid: the innermost node stands for the interior face")
+    return notes
 
 
 def start_notes(history: WallHistory) -> list[str]:
@@ -149,14 +162,6 @@ def _require_options(surface: dict[str, float], step: float, longest_gap: float,
         require_plot(plot)
 
 
-def _one_slab(stack: Construction) -> Construction:
-    """The construction, where it is layers one behind the other: one march has one path."""
-    if stack.paths or stack.shape != "slab":
-        kind = "parallel paths" if stack.paths else stack.shape
-        raise InputError("command line", "--construction", stack.name, f"it has {kind}", "march each path as layers")
-    return stack
-
-
 @contextmanager
 def _march_progress(title: str) -> Iterator[MarchProgress]:
     """A progress bar on the error stream while a wall is marched, where that is a terminal."""
@@ -194,6 +199,9 @@ def figures(history: WallHistory, stack: Construction) -> dict[str, Any]:
     return {
         "construction": stack.name,
         "thermal_resistance_m2_K_W": stack.thermal_resistance,
+        "paths": {path.name: path.fraction for path in stack.paths},
+        "shape": stack.shape,
+        "radius_m": stack.radius,
         "nodes": history.grid.capacity.size,
         "samples": history.time.size,
         "span_h": float(history.time[-1] - history.time[0]) / SECONDS_PER_HOUR,

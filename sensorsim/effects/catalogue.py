@@ -44,6 +44,7 @@ EFFECTS = (
     _surface("rain", "rain on surfaces: its heat, and the film that stays", "surfaces that no rain hits"),
     _surface("evaporation", "water that evaporates or comes down as dew", "dry surfaces"),
     _surface("snow", "snow on the ground and its melting", "bare ground"),
+    _surface("exchange", "long waves and light between near surfaces", "each surface alone under its sky"),
     _surface("interior", "heat from or to what lies behind the wall", "an inner face that no heat passes"),
     _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
     _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
@@ -58,8 +59,7 @@ BY_NAME = {effect.name: effect for effect in EFFECTS}
 # What no setting can switch on.
 NOT_MODELLED = (
     "specular reflection: all surfaces are Lambertian",
-    "cast shadows, and surfaces that hide sky, ground and sun from each other",
-    "exchange of heat and light between surfaces, except through the ground plane",
+    "cast shadows, and surfaces in each other's way, except by the optional exchange",
     "conduction along a wall, and across its edges",
     "blur by optics, detector and motion",
     "noise, non-uniformity and dead pixels of the detector",

@@ -33,6 +33,16 @@ class EffectChoice:
             return name in self.wanted
         return {"auto": None, "all": True, "none": False}[self.base]
 
+    @property
+    def text(self) -> str:
+        """As `read_choice` takes it."""
+        signs = [f"+{name}" for name in sorted(self.wanted)] + [f"-{name}" for name in sorted(self.refused)]
+        return ",".join((self.base, *signs))
+
+    def with_refused(self, name: str) -> "EffectChoice":
+        """The choice with one effect left out as well; InputError where it is wanted."""
+        return EffectChoice(base=self.base, wanted=self.wanted, refused=self.refused | {name})
+
     def with_wanted(self, name: str) -> "EffectChoice":
         """The choice with one effect asked for as well; InputError where it is refused."""
         return EffectChoice(base=self.base, wanted=self.wanted | {name}, refused=self.refused)

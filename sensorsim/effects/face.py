@@ -32,6 +32,7 @@ class Face:
     snow: bool
     traffic: float  # heat from vehicles [W m-2]
     skin: float  # resistance of a skin of still water [m2 K W-1]
+    memory: float  # how long ago its history began [s]; infinite where it begins periodically
     indoors: tuple[float, float]  # least and greatest air and radiant temperature behind [K]
     paths: tuple[Sequence[Layer], ...]  # layers exterior to interior
 
@@ -83,8 +84,8 @@ def slope(emissivity: float, coldest: float) -> float:
     return 4.0 * emissivity * STEFAN_BOLTZMANN_CONSTANT * coldest**3
 
 
-def interior_share(face: Face, coldest: float, duration: float) -> float:
-    """How much of a change of the inner face can reach the outer one within `duration` [s] [-], at most.
+def interior_share(face: Face, coldest: float) -> float:
+    """How much of a change of the inner face can reach the outer one within its memory [-], at most.
 
     In the steady state the wall's conductance U and the least slope s share it, U / (U + s), and no response to a
     change runs past that. Before, heat has to get through: of a layer of thickness l and diffusivity a with a face that
@@ -94,7 +95,7 @@ def interior_share(face: Face, coldest: float, duration: float) -> float:
     for layers in face.paths:
         resistance = max(sum(layer.thermal_resistance for layer in layers), LEAST_RESISTANCE)
         steady = 1.0 / (1.0 + resistance * slope(face.emissivity, coldest))
-        depth = max((_depth(layer, duration) for layer in layers), default=0.0)
+        depth = max((_depth(layer, face.memory) for layer in layers), default=0.0)
         shares.append(min(steady, 2.0 * _erfc_bound(depth)))
     return max(shares, default=1.0)
 

@@ -214,10 +214,8 @@ def _snow(situation: Situation, limits: Limits) -> Bound:
 
 
 def _interior(situation: Situation, limits: Limits) -> Bound:
-    duration = float(situation.environment.time[-1])
-
     def reach(face: Face, warmest: float) -> float:
-        return interior_share(face, limits.coldest, duration) * (warmest - limits.coldest)
+        return interior_share(face, limits.coldest) * (warmest - limits.coldest)
 
     ground = reach(situation.ground, limits.ground)
     own = [reach(face, warmest) for face, warmest in zip(situation.faces, limits.warmest, strict=True)]

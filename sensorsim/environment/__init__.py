@@ -7,7 +7,7 @@ grid for the thermal model, and `Environment.at` gives the state at one moment f
 from sensorsim.environment.air_mass import relative_air_mass
 from sensorsim.environment.atmosphere import Transmittance, attenuation_coefficient, band_transmittance
 from sensorsim.environment.band_sky import BandSky, band_sky, clear_sky_emissivity, zenith_emissivity
-from sensorsim.environment.build import DEFAULT_VISIBILITY, build_environment
+from sensorsim.environment.build import DEFAULT_VISIBILITY, build_environment, longest_lead_in
 from sensorsim.environment.environment import Environment
 from sensorsim.environment.ground import GROUND_ALBEDO, SNOW_MAXIMUM_TEMPERATURE, ground_albedo
 from sensorsim.environment.humidity import saturation_vapour_pressure, vapour_density, vapour_pressure
@@ -83,6 +83,7 @@ __all__ = [
     "great_circle_distance",
     "ground_albedo",
     "linke_turbidity",
+    "longest_lead_in",
     "near_infrared",
     "perez_irradiance",
     "place_mismatch",

@@ -23,6 +23,7 @@ from sensorsim.errors import InputError
 
 FloatArray = NDArray[np.float64]
 
+LONGEST_LEAD_IN = 10  # [day] that is asked of a file that holds more
 DEFAULT_VISIBILITY = 23_000.0  # [m] the standard clear rural atmosphere
 
 
@@ -69,6 +70,14 @@ def build_environment(
     end = image_start + timedelta(days=1)
     light = _light(cut_weather(weather, start, end), series)
     return _assemble(series, light, start=start, image_start=image_start, step=step, visibility=visibility)
+
+
+def longest_lead_in(weather: Weather, image_day: date) -> int:
+    """Whole days of history that the weather holds before an image day, LONGEST_LEAD_IN at most."""
+    if weather.typical_year:
+        return LONGEST_LEAD_IN
+    held = (datetime.combine(image_day, time(), weather.site.time_zone) - weather.start) // timedelta(days=1)
+    return min(max(held, 0), LONGEST_LEAD_IN)
 
 
 def _assemble(

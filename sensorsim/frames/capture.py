@@ -1,23 +1,44 @@
 """One look of a renderer as a frame with everything that made it."""
 
+import hashlib
+from dataclasses import fields
 from datetime import datetime
 
 import numpy as np
 
+from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.effects import NOT_MODELLED
 from sensorsim.errors import InputError
-from sensorsim.frames.frame import JSON, Frame, build_frame
+from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
+from sensorsim.frames.writer import inputs_sha256
 from sensorsim.render import Camera, Picture, Renderer
-from sensorsim.sensor import DisplaySettings
+from sensorsim.sensor import DisplaySettings, Sensor
+from sensorsim.tables import ShadeTables, SurfaceOffsets
 from sensorsim.version import __version__
 
 
 def take_frame(
-    renderer: Renderer, camera: Camera, at: datetime | str, *, display: DisplaySettings | None = None
+    renderer: Renderer,
+    camera: Camera,
+    at: datetime | str | float,
+    *,
+    display: DisplaySettings | None = None,
+    frame: int = 0,
 ) -> Frame:
-    """Frame at a local standard time (or one with an offset) of the world's image day."""
-    picture = renderer.render(camera, seconds_after_midnight(renderer, at), display=display)
-    return build_frame(picture.planes, frame_settings(renderer, picture))
+    """Frame at a local standard time (or one with an offset, or seconds after midnight) of the world's image day.
+
+    frame: its number in a sequence, which decides its noise.
+    """
+    time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
+    picture = renderer.render(camera, time_of_day, display=display, frame=frame)
+    request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
+    return build_frame(picture.planes, {**request, **_outcome(picture), "request_sha256": inputs_sha256(request)})
+
+
+def plane_names(sensor: Sensor) -> tuple[str, ...]:
+    """Planes that a frame of a sensor has: a signal by a detector, an apparent temperature in emissive bands."""
+    there = {"signal": sensor.detector is not None, "apparent_temperature": sensor.mode == "emissive"}
+    return tuple(name for name in STANDARD_PLANES if there.get(name, True))
 
 
 def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
@@ -38,33 +59,72 @@ def seconds_after_midnight(renderer: Renderer, at: datetime | str) -> float:
     return seconds
 
 
-def frame_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
-    """All inputs of a picture, as plain values."""
-    world, sensor, display = renderer.world, renderer.sensor, picture.display
-    scene = world.scene
-    bake = world.tables.settings.to_dict()
+def request_settings(
+    renderer: Renderer, camera: Camera, time_of_day: float, *, display: DisplaySettings | None, frame: int
+) -> dict[str, JSON]:
+    """All that decides a frame, as plain values: known before it is drawn."""
+    world, sensor = renderer.world, renderer.sensor
+    scene, bake = world.scene, world.tables.settings.to_dict()
     return {
         "sensorsim": __version__,
         "scene": {"name": scene.name, "level": scene.level, "files": [path.name for path in scene.files]},
         "weather": {"name": world.weather.name, "file": world.weather.file.name},
         "warnings": list(world.warnings),
         "day": world.tables.day.isoformat(),
-        "time_of_day_s": picture.time_of_day,
+        "time_of_day_s": time_of_day,
         "utc_offset_h": world.environment.site.utc_offset,
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
-        "sensor": {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode},
-        "size": list(renderer.size),
-        "camera": _camera_settings(renderer, picture.camera),
-        "display": {
-            "polarity": display.polarity,
-            "level": display.level,
-            "span": display.span,
-            "unit": "W m-2 sr-1",
-        },
-        "effects": picture.ledger.to_list(),
+        "lead_in": _lead_in_settings(world.tables),
+        "exchange": _exchange_settings(world.offsets),
+        "effects_asked": world.choice.text,
         "not_modelled": list(NOT_MODELLED),
+        "world_sha256": world.inputs_sha256,
+        "sensor": _sensor_settings(sensor),
+        "size": list(renderer.size),
+        "samples": renderer.samples,
+        "frame": frame,
+        "camera": _camera_settings(renderer, camera),
+        "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
+    }
+
+
+def _outcome(picture: Picture) -> dict[str, JSON]:
+    """What was found while drawing."""
+    display = picture.display
+    window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
+    return {
+        "display": {**window, "tone": display.tone, "gamma": display.gamma},
+        "effects": picture.ledger.to_list(),
         "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
     }
+
+
+def _lead_in_settings(tables: ShadeTables) -> JSON:
+    """From how long before the image day walls were marched, and which began with their first day repeated."""
+    if not tables.lead_in:
+        return None  # nothing was marched
+    hours = [one.span / SECONDS_PER_HOUR for one in tables.lead_in]
+    repeated = [wall.name for wall, one in zip(tables.wall_types, tables.lead_in, strict=True) if one.repeated]
+    return {"shortest_h": min(hours), "longest_h": max(hours), "first_day_repeated": list(dict.fromkeys(repeated))}
+
+
+def _exchange_settings(offsets: SurfaceOffsets | None) -> JSON:
+    """What near surfaces do to each other, where they were asked for."""
+    if offsets is None:
+        return None
+    largest = float(np.max(np.abs(offsets.offset), initial=0.0))
+    return {
+        "surfaces": offsets.surface.size, "passes": offsets.passes, "left_K": offsets.left, "largest_K": largest
+    }  # fmt: skip
+
+
+def _sensor_settings(sensor: Sensor) -> dict[str, JSON]:
+    """Name and mode, and a hash of all numbers that describe it."""
+    parts = [repr(getattr(sensor, field.name)) for field in fields(sensor) if field.name != "band"]
+    parts += [sensor.band.name, sensor.band.wavelength.tobytes().hex(), sensor.band.response.tobytes().hex()]
+    digest = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    plain: dict[str, JSON] = {"name": sensor.name, "title": sensor.title, "band": sensor.band.name, "mode": sensor.mode}
+    return {**plain, "sha256": digest}
 
 
 def _camera_settings(renderer: Renderer, camera: Camera) -> dict[str, JSON]:

@@ -79,15 +79,15 @@ class Frame:
 def build_frame(arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping[str, JSON]) -> Frame:
     """Frame of images (height, width) under the standard names, with their units and descriptions.
 
-    Names: display, radiance, apparent_temperature, surface_temperature, surface_id, feature, range. Display becomes
-    uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and for data that
-    the plane's type cannot hold.
+    Names: display, radiance, signal, apparent_temperature, surface_temperature, surface_id, feature, range. Display
+    becomes uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and for
+    data that the plane's type cannot hold.
     """
     planes = {}
     for name, data in arrays.items():
-        if name not in _STANDARD:
-            raise InputError("frame", "plane", name, "unknown", f"use {', '.join(_STANDARD)}")
-        kind, unit, description, no_surface = _STANDARD[name]
+        if name not in STANDARD_PLANES:
+            raise InputError("frame", "plane", name, "unknown", f"use {', '.join(STANDARD_PLANES)}")
+        kind, unit, description, no_surface = STANDARD_PLANES[name]
         stored = _stored(name, data, np.dtype(kind))
         planes[name] = Plane(name=name, data=stored, unit=unit, description=description, no_surface=no_surface)
     return Frame(planes=planes, settings=settings)
@@ -104,9 +104,10 @@ def _stored(name: str, data: npt.NDArray[np.generic], kind: np.dtype[np.generic]
     raise InputError("frame", f"plane {name!r}", str(data.dtype), f"does not fit {kind}", f"give {kind}")
 
 
-_STANDARD: Mapping[str, tuple[type[np.generic], str, str, float | None]] = {
+STANDARD_PLANES: Mapping[str, tuple[type[np.generic], str, str, float | None]] = {
     "display": (np.uint8, "1", "display code, 0 black to 255 white", None),
     "radiance": (np.float64, "W m-2 sr-1", "band radiance at the sensor", None),
+    "signal": (np.float64, "W m-2 sr-1", "what the detector reports, as band radiance in whole counts", None),
     "apparent_temperature": (np.float64, "K", "temperature of the blackbody with the same band radiance", None),
     "surface_temperature": (np.float64, "K", "temperature of the surface seen, 0 where there is none", 0.0),
     "surface_id": (np.int32, "1", "row of the surface seen, -1 where there is none", -1.0),

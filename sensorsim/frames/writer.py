@@ -15,7 +15,7 @@ import numpy as np
 
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.frames import encode
-from sensorsim.frames.frame import JSON, Frame, Plane
+from sensorsim.frames.frame import JSON, Frame, Plane, build_frame
 
 PLANE_FORMATS = ("exr", "npy", "png", "tiff")
 
@@ -48,6 +48,17 @@ def write_frame(frame: Frame, path: Path | str, *, planes: Sequence[str] = (), p
         return (json.dumps(content, indent=2, sort_keys=True, allow_nan=False) + "\n").encode()
 
     return _write_all(files, sidecar, describe)
+
+
+def require_writable(
+    path: Path | str, names: Sequence[str], *, planes: Sequence[str] = (), plane_format: str = "exr"
+) -> None:
+    """Raise what `write_frame` would raise of path, planes and format for a frame with planes of these names.
+
+    A frame of one pixel is planned, and nothing is written: so that a command can refuse before it has worked.
+    """
+    frame = build_frame({name: np.full((1, 1), 255) for name in names}, {})
+    _plan(frame, Path(path), [frame.plane(name) for name in dict.fromkeys(planes)], plane_format, "")
 
 
 def inputs_sha256(settings: Mapping[str, JSON]) -> str:

@@ -74,7 +74,7 @@ def band_radiance(band: SpectralBand, temperature: npt.ArrayLike) -> FloatArray:
     kelvin = np.asarray(temperature, dtype=np.float64)
     total = np.zeros(kelvin.shape)
     # One node at a time: memory stays that of the answer, also for whole images.
-    for wavelength, weight in zip(*_quadrature(band), strict=True):
+    for wavelength, weight in zip(*band_quadrature(band), strict=True):
         total += weight * spectral_radiance(wavelength, kelvin)
     return total
 
@@ -83,13 +83,13 @@ def band_radiance_derivative(band: SpectralBand, temperature: npt.ArrayLike) -> 
     """Temperature derivative of `band_radiance` [W m-2 sr-1 K-1]; same shapes and errors."""
     kelvin = np.asarray(temperature, dtype=np.float64)
     total = np.zeros(kelvin.shape)
-    for wavelength, weight in zip(*_quadrature(band), strict=True):
+    for wavelength, weight in zip(*band_quadrature(band), strict=True):
         total += weight * spectral_radiance_derivative(wavelength, kelvin)
     return total
 
 
-def _quadrature(band: SpectralBand) -> tuple[FloatArray, FloatArray]:
-    """Gauss-Legendre nodes [m] and weights [m] of int R(l) f(l) dl, in panels that end at the response's points."""
+def band_quadrature(band: SpectralBand) -> tuple[FloatArray, FloatArray]:
+    """Nodes [m] and weights [m] of int R(l) f(l) dl: Gauss-Legendre in panels that end at the response's points."""
     node, weight = np.polynomial.legendre.leggauss(_PANEL_NODES)
     edges = [band.wavelength[:1]]
     for start, end in zip(band.wavelength[:-1], band.wavelength[1:], strict=True):

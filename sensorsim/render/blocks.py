@@ -37,3 +37,23 @@ DISPLAY = UniformBlock(
         Field("black_hot", "float", "1 for black-hot polarity, 0 for white-hot"),
     ),
 )
+
+DETECTION = UniformBlock(
+    name="Detection",
+    binding=3,
+    fields=(
+        Field("constant", "float", "variance of one look without light [W2 m-4 sr-2]"),
+        Field("shot", "float", "variance per radiance [W m-2 sr-1]"),
+        Field("count_step", "float", "radiance from one count to the next [W m-2 sr-1]"),
+        Field("highest", "float", "count at which the detector is full"),
+        Field("corrected_at", "float", "radiance where gains that differ do not show [W m-2 sr-1]"),
+        Field("full", "float", "radiance that fills the detector [W m-2 sr-1]"),
+        Field("renewed", "float", "share of a picture that is new one frame later"),
+        Field("kept", "float", "share of a channel's level that is left a block later"),
+        Field("level", "float", "radiance that stands for a channel's level [W m-2 sr-1]"),
+        Field("halo_share", "float", "of the light above full that comes back as a halo"),
+        Field("halo_radius", "float", "of the halo [blocks]"),
+        Field("frame", "uint", "number of the frame"),
+        Field("seed", "uint", "of the noise that differs from element to element"),
+    ),
+)

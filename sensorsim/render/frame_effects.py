@@ -7,10 +7,8 @@ from typing import Protocol
 import numpy as np
 
 from sensorsim.effects import (
-    DEFAULT_NOISE,
     EFFECTS,
     FRAME,
-    NOISE_SHARE,
     EffectChoice,
     Ledger,
     Limits,
@@ -26,9 +24,11 @@ from sensorsim.radiometry import BandTable, build_band_table
 from sensorsim.render.camera import Camera
 from sensorsim.render.illumination import Illumination, illuminate
 from sensorsim.render.ranges import ground_range, longest_range
-from sensorsim.render.survey import Survey
+from sensorsim.render.survey import Survey, tolerance_of
+from sensorsim.render.world import World
 from sensorsim.scene import Scene
 from sensorsim.sensor import Sensor
+from sensorsim.tables import surface_temperature
 from sensorsim.tables.assign import Assignment
 from sensorsim.thermal import ground_temperature
 
@@ -51,8 +51,8 @@ class Decided(Protocol):
 
 
 def frame_ledger(
-    decided: Decided, table: BandTable | None, camera: Camera, size: tuple[int, int], illumination: Illumination, *,
-    extremes: Callable[[], tuple[float, float]] | None = None,
+    decided: Decided, sensor: Sensor, table: BandTable | None, camera: Camera, size: tuple[int, int],
+    illumination: Illumination, *, extremes: Callable[[], tuple[float, float]] | None = None,
 ) -> Ledger:  # fmt: skip
     """The ledger with the effects of one frame; `table` is that of the band of an emissive sensor.
 
@@ -73,9 +73,20 @@ def frame_ledger(
         mirrored = decided.choice.asked("reflected_sky") is not False
         rows = decide(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
-            tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K", spent=decided.ledger.spent,
+            tolerance=tolerance_of(sensor), unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
     return decided.ledger.with_rows(rows)
+
+
+def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:
+    """Coldest and warmest surface of a baked scene [K] at a time of the image day [s]."""
+    surfaces, assignment = world.scene.surfaces, world.assignment
+    found = surface_temperature(
+        world.tables, surfaces.normal, assignment.wall_type, assignment.reflectance, time_of_day
+    )
+    if world.offsets is not None:
+        found = found + world.offsets.at(time_of_day, found.size)
+    return float(found.min()), float(found.max())
 
 
 def survey_ledger(survey: Survey, sensor: Sensor, camera: Camera, size: tuple[int, int], time_of_day: float) -> Ledger:
@@ -89,7 +100,7 @@ def survey_ledger(survey: Survey, sensor: Sensor, camera: Camera, size: tuple[in
         day = history[survey.environment.image_window]
         ground = float(np.interp(time_of_day / survey.environment.step, np.arange(day.size), day))
     illumination = illuminate(sensor, survey.environment.at(time_of_day), ground, table)
-    return frame_ledger(survey, table, camera, size, illumination)
+    return frame_ledger(survey, sensor, table, camera, size, illumination)
 
 
 def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination: Illumination) -> Look:

@@ -7,6 +7,7 @@ import moderngl
 from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
 from sensorsim.gpu.mesh import MeshBuffers
 from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.tables import LookupTable
 
 TEXTURE_UNITS = {
     "surface_table": 0,
@@ -14,6 +15,19 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "product_picture": 5,
+    "focal_plane": 6,
+    "kernel_table": 7,
+    "column_table": 8,
+    "pattern_table": 9,
+    "row_table": 10,
+    "line_table": 11,
+    "deviate_table": 12,
+    "tone_table": 5,
+    "last_picture": 13,
+    "block_picture": 14,
+    "baseline_picture": 15,
+    "halo_picture": 14,
 }
 
 
@@ -71,13 +85,34 @@ def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines
     )
 
 
-def display_pass(ctx: moderngl.Context) -> Pass:
-    """Grey [0, 1] from band radiance."""
+def screen_pass(
+    ctx: moderngl.Context,
+    fragment: str,
+    samplers: tuple[str, ...],
+    defines: Mapping[str, int] | None = None,
+    *,
+    blocks: tuple[UniformBlock, ...] = (),
+    generated: Mapping[str, str] | None = None,
+) -> Pass:
+    """A pass over the whole picture."""
     return Pass(
         ctx,
         "common/screen.vert",
+        fragment,
+        blocks=blocks,
+        samplers=samplers,
+        generated=generated or {},
+        defines=defines,
+    )
+
+
+def display_pass(ctx: moderngl.Context, curve: LookupTable | None = None) -> Pass:
+    """Grey [0, 1] from band radiance, by a straight line or a curve."""
+    straight = "Ratio tone(Ratio straight) { return straight; }\n"
+    return screen_pass(
+        ctx,
         "sensor/display.frag",
+        ("radiance_picture",) if curve is None else ("radiance_picture", "tone_table"),
         blocks=(DISPLAY,),
-        samplers=("radiance_picture",),
-        generated={},
+        generated={"tone": straight if curve is None else curve.glsl()},
     )

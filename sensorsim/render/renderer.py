@@ -15,17 +15,27 @@ from sensorsim.gpu import create_context, float_table, mesh_buffers, render_targ
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
-from sensorsim.render.frame_effects import frame_ledger
+from sensorsim.render.frame_effects import frame_ledger, world_extremes
 from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
-from sensorsim.render.passes import TEXTURE_UNITS, Pass, background_pass, display_pass, surface_pass
+from sensorsim.render.passes import TEXTURE_UNITS, display_pass
+from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.surface_table import surface_table
-from sensorsim.render.variants import background_defines, surface_defines
-from sensorsim.render.world import World
-from sensorsim.sensor import DisplaySettings, Sensor, fix_window, window_limits
-from sensorsim.tables import LookupTable, surface_temperature
+from sensorsim.render.variants import Programs
+from sensorsim.render.world import World, require_temperature
+from sensorsim.sensor import (
+    TONE_ENTRIES,
+    DisplaySettings,
+    Sensitivity,
+    Sensor,
+    fix_window,
+    tone_curve,
+    window_limits,
+)
+from sensorsim.tables import LookupTable
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
 
 _BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
+FILLED = 0.8  # of the detector's range, that an automatic iris aims at
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
 
@@ -45,13 +55,19 @@ class Renderer:
     """Draws a world as one sensor sees it. Use as a context manager: it holds an OpenGL context."""
 
     def __init__(
-        self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto"
-    ) -> None:
+        self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
+        samples: int = 1, blur_energy: float = 0.99,
+    ) -> None:  # fmt: skip
+        if samples not in (1, 3, 5, 7):
+            raise InputError("renderer", "samples", samples, "not 1, 3, 5 or 7", "give an odd number per pixel's side")
+        if samples > 1 and sensor.detector is None:
+            raise InputError("renderer", "samples", samples, f"{sensor.name} has no detector to join them", "use 1")
         self.world = world
         self.sensor = sensor
         self.size = sensor.size if size is None else size
+        self.samples, self.blur_energy = samples, blur_energy
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
-        _require_temperature(world, sensor)
+        require_temperature(world, sensor)
         self.ctx = create_context(backend)
         try:
             self._build()
@@ -75,26 +91,27 @@ class Renderer:
 
     def render(
         self, camera: Camera, time_of_day: float, *, display: DisplaySettings | None = None,
-        illumination: Illumination | None = None,
+        illumination: Illumination | None = None, frame: int = 0,
     ) -> Picture:  # fmt: skip
         """The picture from `camera` at a time of the image day [s].
 
-        Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature and, in
-        emissive bands, apparent_temperature [K]; what the world's effects leave out is missing. `illumination` replaces
-        the surroundings of the moment.
+        Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
+        bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
+        number; without what the effects leave out. `illumination` replaces the surroundings of the moment.
         """
         if illumination is None:
             illumination = self.illuminate(time_of_day)
         ledger = frame_ledger(
-            self.world, self.band_table, camera, self.size, illumination,
-            extremes=lambda: self._extremes(time_of_day),
+            self.world, self.sensor, self.band_table, camera, self.size, illumination,
+            extremes=lambda: world_extremes(self.world, time_of_day),
         )  # fmt: skip
         with self.ctx:  # another renderer's context may have become the current one
             self._set_moment(time_of_day, illumination, ledger.plan)
             self._draw(camera, ledger.plan)
             planes = self._read(ledger.plan)
+            self._detect(camera, planes, frame)
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
-            planes["display"] = self._display(settings)
+            planes["display"] = self._display(settings, exposed(planes))
         return Picture(
             planes=planes,
             display=settings,
@@ -112,19 +129,9 @@ class Renderer:
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
         return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
 
-    def _extremes(self, time_of_day: float) -> tuple[float, float]:
-        """Coldest and warmest surface of the scene [K] at a time of the image day [s]."""
-        world = self.world
-        found = surface_temperature(
-            world.tables, world.scene.surfaces.normal, world.assignment.wall_type, world.assignment.reflectance,
-            time_of_day,
-        )  # fmt: skip
-        return float(found.min()), float(found.max())
-
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
-        surfaces, mesh = world.scene.surfaces, world.scene.mesh
-        records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
+        mesh, records = world.scene.mesh, self._records(0.0)
         coefficients = _read_or_not(world.tables.coefficients[0].astype(np.float64))
         band = self._band_lookup()
         sky = LookupTable(
@@ -137,17 +144,30 @@ class Renderer:
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
         }
-        self._generated = {
+        generated = {
             "coefficients": coefficient_glsl(coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             "sky_radiance": sky.glsl(),
         }
-        self._mesh = mesh_buffers(
+        vertices = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
         )
-        self._passes: dict[tuple[str, tuple[tuple[str, int], ...]], Pass] = {}
-        self._show = display_pass(ctx)
-        self._target = render_target(ctx, self.size, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
+        self._programs = Programs(ctx, vertices, generated, emissive=self.sensor.mode == "emissive")
+        self._build_targets()
+
+    def _build_targets(self) -> None:
+        ctx = self.ctx
+        curve = LookupTable(
+            name="tone", quantity="Ratio", argument="Ratio", minimum=0.0, maximum=1.0, values=np.zeros(TONE_ENTRIES)
+        )
+        self._tables["tone_table"] = float_table(ctx, "tone_table", curve.texels)
+        self._show, self._show_curve = display_pass(ctx), display_pass(ctx, curve)
+        drawn = (self.samples * self.size[0], self.samples * self.size[1])
+        self._chain = None
+        if self.sensor.detector is not None:
+            energy = self.blur_energy
+            self._chain = SensorChain(ctx, self.sensor, self.size, samples=self.samples, energy=energy)
+        self._target = render_target(ctx, drawn, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
@@ -163,18 +183,15 @@ class Renderer:
             values=np.zeros(2) if table is None else table.radiance,
         )
 
-    def _pass(self, name: str, defines: Mapping[str, int]) -> Pass:
-        """The program of these defines, built when it is first called for."""
-        key = name, tuple(defines.items())
-        if key not in self._passes:
-            self._passes[key] = (
-                surface_pass(self.ctx, self._mesh, self._generated, defines)
-                if name == "surfaces"
-                else background_pass(self.ctx, self._generated, defines)
-            )
-        return self._passes[key]
+    def _records(self, time_of_day: float) -> NDArray[np.float32]:
+        """Surface table at a time of the image day [s]."""
+        world, surfaces = self.world, self.world.scene.surfaces
+        offset = None if world.offsets is None else world.offsets.at(time_of_day, surfaces.area.size)
+        return surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations, offset)
 
     def _set_moment(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
+        if self.world.offsets is not None:
+            update_table(self._tables["surface_table"], self._records(time_of_day))
         if plan.has("temperature"):
             coefficients = _read_or_not(self.world.tables.at(time_of_day))
             update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
@@ -208,9 +225,9 @@ class Renderer:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
-        self._pass("background", background_defines(plan)).draw()
+        self._programs.background(plan).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._pass("surfaces", surface_defines(plan, emissive=self.band_table is not None)).draw()
+        self._programs.surfaces(plan).draw()
 
     def _bind(self) -> None:
         for block in _BLOCKS:
@@ -223,40 +240,58 @@ class Renderer:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
+        middle = slice(self.samples // 2, None, self.samples)  # each pixel shows what its middle sees
         planes: dict[str, NDArray[Any]] = {
-            name: np.ascontiguousarray(quantities[:, :, component])
+            name: np.ascontiguousarray(quantities[middle, middle, component])
             for component, name in enumerate(QUANTITIES)
             if name != "surface_temperature" or plan.has("temperature")
         }
-        surface = self._target.read("id")[:, :, 0]
+        surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
         planes["surface_id"] = surface
         planes["feature"] = np.where(surface < 0, -1, self.world.scene.surfaces.feature[np.maximum(surface, 0)])
         if self.band_table is not None:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes
 
-    def _display(self, settings: DisplaySettings) -> NDArray[np.uint8]:
+    def _detect(self, camera: Camera, planes: dict[str, NDArray[Any]], frame: int) -> None:
+        """What the detector reports of the frame of that number, as plane `signal` and as the picture on display."""
+        if self._chain is None:
+            return
+        seen = exposed(planes)
+        exposure, level = exposure_for(self._chain.look, seen), float(np.mean(seen, dtype=np.float64))
+        field = float(np.radians(camera.horizontal_field_of_view))
+        picture = self._target.texture("quantities")
+        reported = self._chain.run(picture, field, frame, exposure=exposure, level=level)
+        planes["signal"] = self._chain.read("reported")
+        reported.use(TEXTURE_UNITS["radiance_picture"])
+
+    def _display(self, settings: DisplaySettings, seen: NDArray[np.float32]) -> NDArray[np.uint8]:
         low, high = window_limits(settings)
         black_hot = float(settings.polarity == "black-hot")
         self._blocks["Display"].write(DISPLAY.pack(level=0.5 * (low + high), span=high - low, black_hot=black_hot))
+        show = self._show
+        if not settings.is_straight:
+            show = self._show_curve
+            curve = tone_curve(settings.tone, settings.gamma, seen, low, high)
+            update_table(self._tables["tone_table"], curve[None, :])
+            self._tables["tone_table"].use(TEXTURE_UNITS["tone_table"])
         self._screen.use()
         self.ctx.enable_only(moderngl.NOTHING)
-        self._show.draw()
+        show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
+
+
+def exposure_for(look: Sensitivity, radiance: NDArray[np.float32]) -> float:
+    """Share of the light that keeps all but a hundredth of the pixels below FILLED of what the detector holds."""
+    bright = float(np.quantile(radiance, 0.99))
+    return min(1.0, FILLED * look.full / bright) if bright > 0.0 else 1.0
 
 
 def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
     """Radiances that an automatic gain goes by: of surfaces, so that a cold or bright sky does not take the window."""
     seen = planes["surface_id"] >= 0
-    radiance: NDArray[np.float32] = planes["radiance"]
+    radiance: NDArray[np.float32] = planes.get("signal", planes["radiance"])
     return radiance[seen] if np.any(seen) else radiance.ravel()
-
-
-def _require_temperature(world: World, sensor: Sensor) -> None:
-    """Refuse an emissive sensor in a world that was built without temperatures."""
-    if sensor.mode == "emissive" and not world.ledger.plan.has("temperature"):
-        problem = "needs surface temperatures, which this world was built without"
-        raise InputError("renderer", "sensor", sensor.name, problem, "build the world for this sensor, or with them")
 
 
 def _read_or_not(coefficients: NDArray[np.float64]) -> NDArray[np.float64]:

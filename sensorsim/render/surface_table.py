@@ -15,9 +15,16 @@ SURFACES_PER_ROW = 1024
 
 
 def surface_table(
-    normal: NDArray[np.float64], feature: NDArray[np.int32], assignment: Assignment, orientations: OrientationSet
+    normal: NDArray[np.float64],
+    feature: NDArray[np.int32],
+    assignment: Assignment,
+    orientations: OrientationSet,
+    offset: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float32]:
-    """Records (rows, SURFACES_PER_ROW * SURFACE_TEXELS, 4) of surfaces with normals (s, 3)."""
+    """Records (rows, SURFACES_PER_ROW * SURFACE_TEXELS, 4) of surfaces with normals (s, 3).
+
+    `offset` (s,) [K] is what surfaces differ from the tables by at the moment.
+    """
     corner, weight = orientations.locate(normal)
     count = normal.shape[0]
     record = np.zeros((count, SURFACE_TEXELS, 4))
@@ -27,6 +34,8 @@ def surface_table(
     record[:, 3] = quadrant_view_factors(normal)
     record[:, 4, 0] = assignment.nir_reflectance
     record[:, 4, 1] = feature
+    if offset is not None:
+        record[:, 4, 2] = offset
     rows = -(-count // SURFACES_PER_ROW)
     columns = SURFACES_PER_ROW if rows > 1 else count
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)

@@ -24,11 +24,11 @@ from sensorsim.effects import (
     surface_bounds,
     term_cost,
 )
-from sensorsim.environment import Environment, Weather, build_environment
+from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.radiometry import build_band_table
 from sensorsim.scene import Scene
-from sensorsim.sensor import Sensor
+from sensorsim.sensor import Sensor, netd
 from sensorsim.tables import BakeSettings, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.faces import ground_face, scene_faces
@@ -76,10 +76,10 @@ def survey_scene(
     """
     catalogue = load_catalogue() if catalogue is None else catalogue
     mode = "emissive" if sensor is None else sensor.mode
+    choice = _with_exchange(choice, settings)
     choice.require_inputs(sky=settings.sky, mode=mode)
-    environment = build_environment(
-        weather, image_day=image_day, lead_in_days=settings.lead_in_days, step=settings.step
-    )
+    lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     if choice.asked("snow") is False:
         season = replace(season, snow=False)
@@ -98,9 +98,21 @@ def survey_scene(
         ground=ground,
         settings=settings,
         choice=choice,
-        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=DEFAULT_NOISE * NOISE_SHARE, unit="K")),
+        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
         limits=limits,
     )
+
+
+def tolerance_of(sensor: Sensor | None) -> float:
+    """What effects that are left out may change together [K]: a share of the sensor's NETD, or of a usual one."""
+    stated = sensor is not None and sensor.mode == "emissive" and sensor.detector is not None
+    return NOISE_SHARE * (netd(sensor) if stated and sensor is not None else DEFAULT_NOISE)
+
+
+def _with_exchange(choice: EffectChoice, settings: BakeSettings) -> EffectChoice:
+    """Near surfaces exchange only if asked to, by the settings or by name: that takes longer than all the rest."""
+    asked = settings.exchange or "exchange" in choice.wanted
+    return choice.with_wanted("exchange") if asked else choice.with_refused("exchange")
 
 
 def _situation(
@@ -129,11 +141,12 @@ def _worth(
 ) -> dict[str, Bound]:
     """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
     bounds = _priced(situation)
+    apart = limits.greatest - limits.coldest
+    bounds["exchange"] = Bound(value=apart, reason="computed where asked for, by name or by the bake's settings")
     if sensor is not None and sensor.mode == "reflective":
         if not choice.wants_temperature:
             unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
             return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN)}
-        apart = limits.greatest - limits.coldest
         return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
     factor = 1.0
     if sensor is not None:

@@ -3,7 +3,11 @@
 from collections.abc import Mapping
 from itertools import product
 
+import moderngl
+
 from sensorsim.effects import EffectPlan
+from sensorsim.gpu.mesh import MeshBuffers
+from sensorsim.render.passes import Pass, background_pass, surface_pass
 
 Defines = Mapping[str, int]
 
@@ -28,12 +32,42 @@ def background_defines(plan: EffectPlan) -> Defines:
     return {"PATH": int(plan.has("atmosphere"))}
 
 
+def all_plans() -> tuple[EffectPlan, ...]:
+    """One plan for each way in which plans can differ for a program."""
+    names = ("temperature", "reflected_sky", "reflected_sun", "atmosphere")
+    return tuple(
+        EffectPlan(off=tuple(name for name, off in zip(names, left_out, strict=True) if off))
+        for left_out in product((False, True), repeat=len(names))
+    )
+
+
 def all_surface_defines() -> tuple[Defines, ...]:
     """Every set of defines that any plan can give to the program of the surfaces."""
-    choices = ("temperature", "reflected_sky", "reflected_sun", "atmosphere")
-    found: dict[tuple[tuple[str, int], ...], Defines] = {}
-    for emissive, *on in product((False, True), repeat=len(choices) + 1):
-        plan = EffectPlan(off=tuple(name for name, computed in zip(choices, on, strict=True) if not computed))
-        defines = surface_defines(plan, emissive=emissive)
-        found[tuple(defines.items())] = defines
-    return tuple(found.values())
+    found = [surface_defines(plan, emissive=emissive) for emissive in (False, True) for plan in all_plans()]
+    return tuple({tuple(defines.items()): defines for defines in found}.values())
+
+
+class Programs:
+    """The programs that one sensor's frames have called for so far, each built when it is first needed."""
+
+    def __init__(
+        self, ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool
+    ) -> None:
+        self.ctx, self.mesh, self.generated, self.emissive = ctx, mesh, generated, emissive
+        self.built: dict[tuple[str, tuple[tuple[str, int], ...]], Pass] = {}
+
+    def surfaces(self, plan: EffectPlan) -> Pass:
+        """The program that draws surfaces by this plan."""
+        defines = surface_defines(plan, emissive=self.emissive)
+        key = "surfaces", tuple(defines.items())
+        if key not in self.built:
+            self.built[key] = surface_pass(self.ctx, self.mesh, self.generated, defines)
+        return self.built[key]
+
+    def background(self, plan: EffectPlan) -> Pass:
+        """The program that draws sky and far ground by this plan."""
+        defines = background_defines(plan)
+        key = "background", tuple(defines.items())
+        if key not in self.built:
+            self.built[key] = background_pass(self.ctx, self.generated, defines)
+        return self.built[key]

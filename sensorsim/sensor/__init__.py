@@ -1,5 +1,6 @@
-"""Sensors: the band they see, their mode, field of view and size, and the display that turns radiance into grey."""
+"""Sensors: the band they see, their optics and detector, what these make of radiance, and the display of it."""
 
+from sensorsim.sensor.detector import Detector
 from sensorsim.sensor.display import (
     DisplaySettings,
     auto_window,
@@ -9,18 +10,58 @@ from sensorsim.sensor.display import (
     window_from_temperatures,
     window_limits,
 )
+from sensorsim.sensor.focal_plane import column_places, focal_plane
+from sensorsim.sensor.intensifier import Intensifier
 from sensorsim.sensor.load import load_sensor, sensor_names
+from sensorsim.sensor.memory import remember, renewed_share
+from sensorsim.sensor.noise import Noise
+from sensorsim.sensor.optics import Optics
+from sensorsim.sensor.point_spread import Kernel, blur_kernel, system_transfer
+from sensorsim.sensor.random_field import deviate_table, normal_deviate
+from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, read_out, stream_seed
+from sensorsim.sensor.scan import Scan
+from sensorsim.sensor.sensitivity import Sensitivity, netd, sensitivity
 from sensorsim.sensor.sensor import Sensor
+from sensorsim.sensor.spill import HALO_BLOCK, STREAK_BLOCK, halo_radius, kept_per_block
+from sensorsim.sensor.tone import TONE_ENTRIES, tone_curve
 
 __all__ = [
+    "HALO_BLOCK",
+    "STREAK_BLOCK",
+    "TONE_ENTRIES",
+    "Detector",
     "DisplaySettings",
+    "Intensifier",
+    "Kernel",
+    "Noise",
+    "Optics",
+    "Scan",
+    "Sensitivity",
     "Sensor",
     "auto_window",
+    "blur_kernel",
+    "column_places",
+    "correction_radiance",
+    "deviate_table",
     "display_code",
     "fix_window",
+    "fixed_pattern",
+    "focal_plane",
+    "frame_noise",
     "grey_level",
+    "halo_radius",
+    "kept_per_block",
     "load_sensor",
+    "netd",
+    "normal_deviate",
+    "read_out",
+    "remember",
+    "renewed_share",
+    "sensitivity",
     "sensor_names",
+    "stream_seed",
+    "system_transfer",
+    "tone_curve",
     "window_from_temperatures",
     "window_limits",
 ]

@@ -7,6 +7,7 @@ The detector is linear: its signal is the band radiance x [W m-2 sr-1]. The oper
     display code = floor(255 grey + 1/2)
 
 Gain is 1 / span. The clip is the display's own black and white, what lies outside the window is saturated there.
+A tone curve may bend the line before the polarity (see `tone`).
 `display_code` is the reference that the display shader is held to.
 """
 
@@ -19,6 +20,7 @@ import numpy.typing as npt
 
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.radiometry import BandTable, FloatArray
+from sensorsim.sensor.tone import Tone
 
 Polarity = Literal["white-hot", "black-hot"]
 
@@ -30,14 +32,17 @@ ABSOLUTE_SPAN_FLOOR = 1e-9  # [W m-2 sr-1]; for a frame of no radiance at all
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DisplaySettings:
-    """Polarity and window of the display; a level or span [W m-2 sr-1] of None is chosen for each frame.
+    """Polarity, window and tone of the display; a level or span [W m-2 sr-1] of None is chosen for each frame.
 
-    Raises InputError for an unknown polarity, a level that is not finite, or a span that is not finite and above zero.
+    Raises InputError for an unknown polarity or tone, a level that is not finite, a span that is not finite and above
+    zero, or a gamma outside 0.2 to 5.
     """
 
     polarity: Polarity = "white-hot"
     level: float | None = None
     span: float | None = None
+    tone: Tone = "linear"
+    gamma: float = 1.0  # of the screen: grey to the power 1 / gamma
 
     def __post_init__(self) -> None:
         where = "display settings"
@@ -47,11 +52,20 @@ class DisplaySettings:
             raise InputError(where, "level", self.level, "not finite", "give a band radiance in W m-2 sr-1")
         if self.span is not None and not (math.isfinite(self.span) and self.span > 0.0):
             raise InputError(where, "span", self.span, "not finite and above zero", "give a width in W m-2 sr-1")
+        if self.tone not in get_args(Tone):
+            raise InputError(where, "tone", self.tone, "unknown", f"use {' or '.join(get_args(Tone))}")
+        if not 0.2 <= self.gamma <= 5.0:
+            raise InputError(where, "gamma", self.gamma, "outside of 0.2 to 5", "use 1 for a straight line")
 
     @property
     def gain(self) -> float | None:
         """Grey per band radiance [W-1 m2 sr], 1 / span, or None where the span is automatic."""
         return None if self.span is None else 1.0 / self.span
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether grey is a straight line in radiance."""
+        return self.tone == "linear" and self.gamma == 1.0
 
     @property
     def is_automatic(self) -> bool:
@@ -113,16 +127,23 @@ def window_limits(settings: DisplaySettings) -> tuple[float, float]:
     return darkest, brightest
 
 
-def grey_level(radiance: npt.ArrayLike, settings: DisplaySettings) -> FloatArray:
-    """Grey in [0, 1] of band radiance [W m-2 sr-1], any shape; NumericsError where it is not finite."""
+def grey_level(radiance: npt.ArrayLike, settings: DisplaySettings, curve: FloatArray | None = None) -> FloatArray:
+    """Grey in [0, 1] of band radiance [W m-2 sr-1], any shape; NumericsError where it is not finite.
+
+    curve (n,): grey at equal steps of the window; a straight line where it is left out.
+    """
     darkest, brightest = window_limits(settings)
     signal = np.asarray(radiance, dtype=np.float64)
     if not np.isfinite(signal).all():
         raise NumericsError(f"display: {np.sum(~np.isfinite(signal))} of {signal.size} pixels are not finite")
     grey = np.clip((signal - darkest) / (brightest - darkest), 0.0, 1.0)
-    return grey if settings.polarity == "white-hot" else 1.0 - grey
+    if curve is not None:
+        grey = np.interp(grey, np.linspace(0.0, 1.0, curve.size), curve)
+    return np.asarray(grey if settings.polarity == "white-hot" else 1.0 - grey)
 
 
-def display_code(radiance: npt.ArrayLike, settings: DisplaySettings) -> npt.NDArray[np.uint8]:
+def display_code(
+    radiance: npt.ArrayLike, settings: DisplaySettings, curve: FloatArray | None = None
+) -> npt.NDArray[np.uint8]:
     """Display code 0 (black) to 255 (white) of band radiance [W m-2 sr-1]; errors of `grey_level`."""
-    return np.floor(255.0 * grey_level(radiance, settings) + 0.5).astype(np.uint8)
+    return np.floor(255.0 * grey_level(radiance, settings, curve) + 0.5).astype(np.uint8)

@@ -1,5 +1,9 @@
-"""Reads sensors from TOML files, those of assets/sensors/ by name."""
+"""Reads sensors from TOML files, those of assets/sensors/ by name.
 
+A key may end in the unit that its number is given in (UNITS); without one it is in SI.
+"""
+
+import dataclasses
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -11,10 +15,22 @@ import numpy as np
 from sensorsim.errors import InputError
 from sensorsim.radiometry import SpectralBand
 from sensorsim.resources import assets_folder
+from sensorsim.sensor.detector import Detector
 from sensorsim.sensor.display import DisplaySettings
+from sensorsim.sensor.intensifier import Intensifier
+from sensorsim.sensor.noise import Noise
+from sensorsim.sensor.optics import Optics
+from sensorsim.sensor.scan import Scan
 from sensorsim.sensor.sensor import Sensor
 
-_KINDS: Mapping[type, str] = {str: "text", float: "a number", list: "a list of numbers", dict: "a table"}
+_KINDS: Mapping[type, str] = {
+    str: "text",
+    float: "a number",
+    int: "a whole number",
+    bool: "true or false",
+    list: "a list of numbers",
+    dict: "a table",
+}
 _SENSOR_KEYS: Mapping[str, type] = {
     "name": str,
     "title": str,
@@ -23,9 +39,24 @@ _SENSOR_KEYS: Mapping[str, type] = {
     "source": str,
     "band": dict,
 }
-_SENSOR_OPTIONS: Mapping[str, type] = {"size": list, "display": dict, "notes": str}
+_RECORDS: Mapping[str, type] = {
+    "optics": Optics,
+    "detector": Detector,
+    "scan": Scan,
+    "noise": Noise,
+    "intensifier": Intensifier,
+}
+_SENSOR_OPTIONS: Mapping[str, type] = {
+    "size": list,
+    "display": dict,
+    "notes": str,
+    **dict.fromkeys(_RECORDS, dict),
+}
+UNITS: Mapping[str, float] = {
+    "_um": 1e-6, "_mm": 1e-3, "_us": 1e-6, "_ms": 1e-3, "_urad": 1e-6, "_mrad": 1e-3, "_cm_hz": 1e-2,
+}  # fmt: skip
 _BAND_KEYS: Mapping[str, type] = {"name": str, "wavelength_um": list, "response": list}
-_DISPLAY_OPTIONS: Mapping[str, type] = {"polarity": str, "level": float, "span": float}
+_DISPLAY_OPTIONS: Mapping[str, type] = {"polarity": str, "level": float, "span": float, "tone": str, "gamma": float}
 
 
 def sensor_names() -> list[str]:
@@ -47,13 +78,14 @@ def load_sensor(name_or_path: str | Path) -> Sensor:
     except OSError as error:
         raise InputError(path, "file", path.name, f"unreadable ({error.strerror})", "check its permissions") from error
     _check_table(path, "", entries, _SENSOR_KEYS, _SENSOR_OPTIONS)
-    plain = {key: value for key, value in entries.items() if key not in ("band", "display", "size")}
+    plain = {key: value for key, value in entries.items() if key not in ("band", "display", "size", *_RECORDS)}
     if "size" in entries:
         plain["size"] = tuple(entries["size"])
     band = _read_band(path, entries["band"])
     display = _read_display(path, entries.get("display", {}))
+    hardware = {name: _read_record(path, name, entries[name]) for name in _RECORDS if name in entries}
     with _errors_name(path, "", entries):
-        return Sensor(band=band, display=display, **plain)
+        return Sensor(band=band, display=display, **hardware, **plain)
 
 
 def _sensor_file(name_or_path: str | Path) -> Path:
@@ -82,6 +114,28 @@ def _read_display(path: Path, entries: dict[str, Any]) -> DisplaySettings:
         return DisplaySettings(**entries)
 
 
+def _read_record(path: Path, name: str, entries: dict[str, Any]) -> Any:
+    """One table of hardware, its numbers in SI."""
+    fields = {field.name: field for field in dataclasses.fields(_RECORDS[name])}
+    kinds: dict[str, type] = {}
+    plain, keys = {}, {}
+    for key, value in entries.items():
+        unit = next((unit for unit in UNITS if key.endswith(unit) and key.removesuffix(unit) in fields), "")
+        entry = key.removesuffix(unit)
+        if entry in fields:
+            kinds[key] = _kind_of(fields[entry].type)
+            plain[entry], keys[entry] = value * UNITS[unit] if unit and _is_kind(value, float) else value, key
+    required = [name for name, field in fields.items() if field.default is dataclasses.MISSING and name not in plain]
+    known = {**{name: _kind_of(field.type) for name, field in fields.items()}, **kinds}
+    _check_table(path, f"{name}.", entries, {entry: known[entry] for entry in required}, known)
+    with _errors_name(path, f"{name}.", {entry: entries[key] for entry, key in keys.items()}):
+        return _RECORDS[name](**plain)
+
+
+def _kind_of(annotation: Any) -> type:
+    return annotation if annotation in (float, int, bool) else str
+
+
 def _check_table(
     path: Path, prefix: str, entries: dict[str, Any], required: Mapping[str, type], optional: Mapping[str, type]
 ) -> None:
@@ -103,7 +157,7 @@ def _is_kind(value: object, kind: type) -> bool:
         return type(value) in (int, float)
     if kind is list:
         return isinstance(value, list) and all(_is_kind(item, float) for item in value)
-    return isinstance(value, kind)
+    return type(value) is kind
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""What a sensor is to the rest of the package: its band, its mode, its field of view and its display."""
+"""What a sensor is to the rest of the package: its band, its mode, its field of view, its hardware and its display."""
 
 import math
 from dataclasses import dataclass, field
@@ -6,7 +6,12 @@ from typing import Literal, get_args
 
 from sensorsim.errors import InputError
 from sensorsim.radiometry import SpectralBand
+from sensorsim.sensor.detector import Detector
 from sensorsim.sensor.display import DisplaySettings
+from sensorsim.sensor.intensifier import Intensifier
+from sensorsim.sensor.noise import Noise
+from sensorsim.sensor.optics import Optics
+from sensorsim.sensor.scan import Scan
 
 Mode = Literal["emissive", "reflective"]
 
@@ -15,7 +20,7 @@ WIDEST_FIELD_OF_VIEW = 170.0  # [deg]; a plane image grows with tan(half the fie
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
-    """A passive imaging sensor.
+    """A passive imaging sensor; one without optics and detector is ideal: sharp, free of noise, of any depth.
 
     mode: 'emissive' sees what surfaces emit and reflect of the thermal sky, 'reflective' sees reflected sunlight.
     horizontal_field_of_view [deg]; size (width, height) [pixels]; source: where its numbers come from.
@@ -29,6 +34,11 @@ class Sensor:
     horizontal_field_of_view: float
     size: tuple[int, int] = (640, 480)
     display: DisplaySettings = field(default_factory=DisplaySettings)
+    optics: Optics | None = None
+    detector: Detector | None = None
+    scan: Scan = field(default_factory=Scan)
+    noise: Noise = field(default_factory=Noise)
+    intensifier: Intensifier | None = None
     notes: str = ""
     source: str = ""
 
@@ -43,3 +53,22 @@ class Sensor:
         if len(self.size) != 2 or any(type(pixels) is not int or pixels < 1 for pixels in self.size):
             remedy = "give width and height in whole pixels, for example [640, 480]"
             raise InputError(where, "size", self.size, "not two counts of at least 1", remedy)
+        if (self.optics is None) != (self.detector is None):
+            missing = "detector" if self.detector is None else "optics"
+            raise InputError(where, missing, None, "missing beside the other", "describe both or neither")
+        self._check_field()
+        if self.detector is not None and self.mode == "reflective" and self.detector.kind != "photon":
+            raise InputError(where, "detector.kind", self.detector.kind, "knows heat only", "use photon")
+
+    def _check_field(self) -> None:
+        """The field of view must be the detector's behind its lens, to a hundredth."""
+        if self.optics is None or self.detector is None:
+            return
+        angle = self.size[0] * self.detector.pitch / self.optics.focal_length
+        own = math.degrees(angle if self.scan.equal_angle else 2.0 * math.atan(0.5 * angle))
+        if abs(own - self.horizontal_field_of_view) > 0.01 * own:
+            problem = f"but pitch, size and focal length give {own:.4g} deg"
+            where = f"sensor {self.name!r}"
+            raise InputError(
+                where, "horizontal_field_of_view", self.horizontal_field_of_view, problem, "make them agree"
+            )

@@ -31,6 +31,7 @@ class Assignment:
     wall_types: tuple[WallType, ...]
     wall_type: IntArray  # (s,) row in wall_types
     reflectance: FloatArray  # (s,) solar, of what is not absorbed [-]
+    transmittance: FloatArray  # (s,) solar, the part of it that passes a pane [-]
     nir_reflectance: FloatArray  # (s,) 0.8-1.1 um [-]
     emissivity: FloatArray  # (s,) 8-14 um [-]
 
@@ -46,7 +47,7 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue, season: Season = MILD)
     rows: dict[WallType, int] = {}
     count = scene.surfaces.word.size
     wall_type = np.zeros(count, dtype=np.int64)
-    reflectance, nir, emissivity = np.zeros(count), np.zeros(count), np.zeros(count)
+    reflectance, transmittance, nir, emissivity = np.zeros((4, count))
     for row in range(count):
         word, _ = resolve_surface_word(scene, catalogue, row)
         covered = season.snow and scene.surfaces.role[row] == "plane" and _takes_snow(catalogue, word.code)
@@ -54,13 +55,14 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue, season: Season = MILD)
         section = None if covered else _section(scene, catalogue, row)
         wall = _wall_type(scene, catalogue, row, word.code, section=section, leafless=season.leafless)
         wall_type[row] = rows.setdefault(wall, len(rows))
-        transmittance = catalogue.material(word.code).solar_transmittance.value
-        reflectance[row] = min(word.reflectance + transmittance, 1.0)
+        reflectance[row] = min(word.reflectance + catalogue.material(word.code).solar_transmittance.value, 1.0)
+        transmittance[row] = reflectance[row] - word.reflectance
         nir[row] = _nir_reflectance(catalogue, wall, word.reflectance, leafless=season.leafless)
         emissivity[row] = wall.emissivity
     return Assignment(
-        wall_types=tuple(rows), wall_type=wall_type, reflectance=reflectance, nir_reflectance=nir, emissivity=emissivity
-    )
+        wall_types=tuple(rows), wall_type=wall_type, reflectance=reflectance, transmittance=transmittance,
+        nir_reflectance=nir, emissivity=emissivity,
+    )  # fmt: skip
 
 
 def resolve_surface_word(scene: Scene, catalogue: Catalogue, row: int) -> tuple[MaterialWord, str | None]:

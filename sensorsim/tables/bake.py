@@ -13,15 +13,15 @@ from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
+from sensorsim.tables.history import wall_history
 from sensorsim.tables.mixture import mix_coefficients
 from sensorsim.tables.orientations import FloatArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
-from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
-from sensorsim.thermal.paths import march_paths
+from sensorsim.thermal.lead_in import lead_in_of
+from sensorsim.thermal.natural import surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -44,7 +44,9 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     scope = whole_scope(wall_types, settings) if scope is None else scope
-    soil = ground_temperature(environment, ground, sky=settings.sky, plan=plan)
+    own = settings.lead_in_days is None
+    repeated = lead_in_of(ground, environment, own=own).repeated
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated, plan=plan)
     exposure = expose(environment, scope.orientations.normal, soil, sky=settings.sky, plan=plan)
     record = _slices(environment, settings)
 
@@ -71,6 +73,7 @@ def bake_tables(
         coefficients=np.stack(rows, axis=1).astype(np.float32),
         ground_temperature=soil[record],
         settings=settings,
+        lead_in=tuple(lead_in_of(wall, environment, own=own) for wall in wall_types),
     )
 
 
@@ -85,6 +88,7 @@ def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], set
         coefficients=np.full((2, len(wall_types), orientations.normal.shape[0], 1), np.nan, dtype=np.float32),
         ground_temperature=np.full(2, np.nan),
         settings=settings,
+        lead_in=(),
     )
 
 
@@ -120,25 +124,7 @@ def _solve_wall(
     """Coefficients (t, o, p) [K] of one wall type from histories at reflectances `values`; powers beyond them are 0."""
     reflectances = np.asarray(values, dtype=np.float64)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
-    inside = build_interior(
-        wall.interior,
-        environment.air_temperature,
-        environment.wind_speed,
-        environment.step,
-        wall.interior_emissivity,
-        room=wall.room,
-        heat_gain=wall.heat_gain,
-        plan=plan,
-    )
-    water = wall.cover is not None and wall.cover.kind == "water"
-    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
-    start = float(np.mean(environment.air_temperature)) if water else None
-    history = march_paths(
-        wall, outside, inside, 1.0 - reflectances, step=environment.step, record=record, start=start,
-        melting_depth=melting_depth(wall),
-    )  # fmt: skip
-    exterior = history.exterior
-    if water and wall.cover is not None:
-        exterior = cool_skin(exterior, outside, record, wall.cover)
+    lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
+    exterior = wall_history(environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, plan=plan)
     fitted = fit_polynomials(exterior, reflectances, min(settings.degree, reflectances.size - 1))
     return np.pad(fitted, ((0, 0), (0, 0), (0, settings.degree + 1 - fitted.shape[-1])))

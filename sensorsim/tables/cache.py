@@ -9,7 +9,7 @@ import io
 import os
 import zipfile
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Any
@@ -23,6 +23,7 @@ from sensorsim.tables.bake import Progress, bake_tables
 from sensorsim.tables.coefficients import ShadeTables
 from sensorsim.tables.scope import Scope, whole_scope
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.lead_in import lead_in_of
 
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
@@ -59,6 +60,7 @@ def cached_tables(
             wall_types=tuple(wall_types),
             orientations=scope.orientations,
             settings=settings,
+            lead_in=tuple(lead_in_of(wall, environment, own=settings.lead_in_days is None) for wall in wall_types),
             **arrays,
         )
     tables = bake()
@@ -86,7 +88,8 @@ def inputs_digest(
         value = getattr(environment, field.name)
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
-    digest.update(repr((tuple(wall_types), ground, settings, plan.surface, scope.reflectances)).encode())
+    tabled = replace(settings, exchange=False)  # comes on top of the tables
+    digest.update(repr((tuple(wall_types), ground, tabled, plan.surface, scope.reflectances)).encode())
     digest.update(scope.orientations.normal.tobytes() + scope.needed.tobytes())
     package = Path(__file__).resolve().parent.parent
     for name in _CODE:

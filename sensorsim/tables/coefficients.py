@@ -15,6 +15,7 @@ from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.orientations import FloatArray, OrientationSet
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.lead_in import LeadIn
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -28,6 +29,7 @@ class ShadeTables:
     coefficients: NDArray[np.float32]  # (t, w, o, p) of the powers of reflectance [K]
     ground_temperature: FloatArray  # (t,) of the ground plane [K]
     settings: BakeSettings
+    lead_in: tuple[LeadIn, ...]  # of the wall types
 
     def at(self, time_of_day: float) -> FloatArray:
         """Coefficients (w, o, p) [K] at a time [s], linear between slices."""

@@ -13,6 +13,7 @@ from sensorsim.thermal.air_properties import pressure_at
 from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.heat_balance import expose, solar_irradiance
 from sensorsim.thermal.interior import build_interior
+from sensorsim.thermal.lead_in import lead_in_of
 from sensorsim.thermal.natural import FREE_DIFFERENCE, STILL_WATER_CONDUCTIVITY, surface_boundary
 from sensorsim.thermal.rain import caught_rain, rain_film
 from sensorsim.thermal.vapour import psychrometric_constant
@@ -51,7 +52,7 @@ def wall_face(
         environment, exposure, wall, correlation=settings.convection, plan=EVERYTHING.without("rain")
     )
     rain = float(rain_film(caught_rain(environment, normal)).max(initial=0.0))
-    cover = wall.cover
+    cover, lead_in = wall.cover, lead_in_of(wall, environment, own=settings.lead_in_days is None)
     by_light = rain > 0.0 or (cover is not None and cover.leaf_area_index > 0.0)
     return Face(
         name=wall.name,
@@ -67,6 +68,7 @@ def wall_face(
         snow=cover is not None and cover.kind == "snow",
         traffic=0.0 if cover is None else cover.traffic_heat,
         skin=0.0 if cover is None else cover.skin / STILL_WATER_CONDUCTIVITY,
+        memory=np.inf if lead_in.repeated else float(environment.time[-1]),
         indoors=_indoors(environment, wall),
         paths=tuple(path.layers for path in wall.paths) or (wall.layers,),
     )

@@ -32,7 +32,15 @@ class OrientationSet:
     inverse: FloatArray  # (t, 3, 3) rows give a direction's coordinates along the three corners
 
     def locate(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Corners (m, 3) and weights (m, 3) of the triangles that hold unit normals (m, 3)."""
+        """Corners (m, 3) and weights (m, 3) of the triangles that hold normals (m, 3) of any length.
+
+        Raises InputError for a normal without direction: zero, NaN or infinite.
+        """
+        undirected = ~(np.all(np.isfinite(normal), axis=1) & np.any(normal != 0.0, axis=1))
+        if np.any(undirected):
+            row = int(np.argmax(undirected))
+            problem = f"the normal of row {row} has no direction"
+            raise InputError(self.name, "normal", normal[row].tolist(), problem, "mend the surface")
         corner = np.zeros((normal.shape[0], 3), dtype=np.int64)
         weight = np.zeros((normal.shape[0], 3))
         for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):

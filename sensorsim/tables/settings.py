@@ -20,9 +20,10 @@ class BakeSettings:
     degree: int = 4  # of the polynomial in reflectance
     step: float = 300.0  # [s]
     slice_interval: float = 900.0  # [s] between the times that are kept
-    lead_in_days: float = 3.0  # before the image day
+    lead_in_days: float | None = None  # before the image day; None: by the walls' own time constants, see `lead_in`
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
+    exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
 
     def __post_init__(self) -> None:
         """Refuse what cannot be solved or fitted."""
@@ -42,7 +43,12 @@ class BakeSettings:
             ),
             ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
             ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
-            ("lead_in_days", not 0 <= self.lead_in_days <= 365, "use 0 to 365 days"),
+            ("exchange", not isinstance(self.exchange, bool), "use True or False"),
+            (
+                "lead_in_days",
+                self.lead_in_days is not None and not 0 <= self.lead_in_days <= 365,
+                "use 0 to 365 days, or None",
+            ),
         ):
             if broken:
                 raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
@@ -70,7 +76,7 @@ PRESETS = {
         orientations="report26", sky="quadrants"
     ),  # the few orientations, five reflectances and quartic of 1978
     "standard": BakeSettings(),
-    "reference": BakeSettings(orientations="icosphere642", step=60.0, lead_in_days=4.0),
+    "reference": BakeSettings(orientations="icosphere642", step=60.0),
 }
 
 

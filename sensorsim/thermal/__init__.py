@@ -3,7 +3,7 @@
 from sensorsim.thermal.boundary import Inside, Outside
 from sensorsim.thermal.boundary_file import BoundaryFile, read_boundary
 from sensorsim.thermal.convection import CORRELATIONS
-from sensorsim.thermal.exchange import Exchange, build_exchange, largest_possible_change, longwave_from_neighbours
+from sensorsim.thermal.exchange import Exchange, build_exchange
 from sensorsim.thermal.grid import WallGrid, build_grid
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import SKIES, Exposure, expose, outside_of
@@ -11,6 +11,11 @@ from sensorsim.thermal.history_file import history_csv, write_whole
 from sensorsim.thermal.interior import build_interior, room_air
 from sensorsim.thermal.march import History, march
 from sensorsim.thermal.natural import surface_boundary
+from sensorsim.thermal.neighbour_radiation import (
+    change_by_neighbours,
+    largest_possible_change,
+    longwave_from_neighbours,
+)
 from sensorsim.thermal.paths import march_paths, transmittance, wall_paths
 from sensorsim.thermal.polygon_view_factors import (
     Outlines,
@@ -23,6 +28,7 @@ from sensorsim.thermal.season import Season, growing_season_index, season_of
 from sensorsim.thermal.view_factors import ground_view_factor, quadrant_view_factors, sky_view_factor
 from sensorsim.thermal.wall import LONGEST_STEP, WallHistory, WallLoads, exterior_loads, march_wall
 from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, build_wall_boundary
+from sensorsim.thermal.wall_paths import march_construction
 from sensorsim.thermal.wall_start import WallStart
 
 __all__ = [
@@ -47,6 +53,7 @@ __all__ = [
     "build_grid",
     "build_interior",
     "build_wall_boundary",
+    "change_by_neighbours",
     "expose",
     "exterior_loads",
     "ground_temperature",
@@ -56,6 +63,7 @@ __all__ = [
     "largest_possible_change",
     "longwave_from_neighbours",
     "march",
+    "march_construction",
     "march_paths",
     "march_wall",
     "outlines_of_mesh",

@@ -8,6 +8,7 @@ import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
+from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
@@ -114,12 +115,20 @@ def _check_header(where: str, header: list[str], constants: Mapping[str, float])
         raise InputError(where, "columns", ",".join(header), "no column `time`", remedy)
     for name in header:
         if name not in COLUMNS:
-            remedy = f"rename or remove it; known are {', '.join(COLUMNS)}"
-            raise InputError(where, "column", name, "unknown", remedy)
+            raise InputError(where, "column", name, "unknown", _closest(name))
         if header.count(name) > 1:
             raise InputError(where, "column", name, "there twice", "remove one")
         if name in constants:
             raise InputError(where, "column", name, "given as a constant too", f"drop the column or {option(name)}")
+
+
+def _closest(name: str) -> str:
+    """What to do about an unknown column: names stand without units."""
+    plain = name.lower().split("[")[0].split("(")[0].strip().replace(" ", "_")
+    near = [known for known in COLUMNS if known == plain] or get_close_matches(plain, COLUMNS, 1)
+    if not near:
+        return f"rename or remove it; known are {', '.join(COLUMNS)}"
+    return f"rename it to {near[0]}{f', in {UNITS[near[0]]}' if near[0] in UNITS else ''}, or remove it"
 
 
 def option(name: str) -> str:

@@ -1,4 +1,4 @@
-"""Long-wave exchange between near surfaces of a scene: an optional effect beside sky and ground.
+"""What near surfaces of a scene see of each other, of the sky and of the ground.
 
 A surface alone on the ground plane sees sky and ground by its tilt. What stands before it takes a share of that: of
 the sky by as much as it stands above the horizon of the element that sees it, of the ground by as much as it stays
@@ -9,10 +9,9 @@ through is an estimate; everything else is exact to rounding. Neighbours below t
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.errors import InputError
 from sensorsim.thermal.neighbour_pairs import areas_above, candidate_pairs
 from sensorsim.thermal.polygon_view_factors import Outlines, mutual_areas
@@ -110,53 +109,3 @@ def _fill(outlines: Outlines, row: IntArray, column: IntArray, factor: FloatArra
         ground_taken=ground_taken,
         kept=kept,
     )
-
-
-def longwave_from_neighbours(
-    exchange: Exchange, temperature: FloatArray, emissivity: FloatArray, *, sky: ArrayLike, ground: ArrayLike
-) -> FloatArray:
-    """Change of the long-wave irradiance [W m-2] of n surfaces by their neighbours, shape (n,) or (t, n).
-
-    temperature (n,) or (t, n) [K], emissivity (n,) [-]; sky and ground, scalar or (t,), are radiosities [W m-2].
-    Neighbours' radiosity replaces that of the sky and ground they hide. It is what they emit and, after one bounce,
-    what they reflect of their own sky, ground and neighbours, which for that count as black, as in eq. 8 of
-    [Report1978]: an isothermal scene is left as it is. A surface absorbs the change by its own emissivity.
-    """
-    temperature, emissivity = np.asarray(temperature, dtype=np.float64), np.asarray(emissivity, dtype=np.float64)
-    if not (np.all(temperature > 0.0) and np.all(np.isfinite(temperature))):
-        worst = float(np.min(temperature))
-        raise InputError("exchange", "temperature", worst, "not all positive and finite [K]", "give kelvin")
-    if not np.all((emissivity >= 0.0) & (emissivity <= 1.0)):
-        raise InputError("exchange", "emissivity", float(np.max(emissivity)), "not within 0 to 1", "give a fraction")
-    factors = exchange.matrix().T
-    above, below = np.asarray(sky, dtype=np.float64)[..., None], np.asarray(ground, dtype=np.float64)[..., None]
-    black = STEFAN_BOLTZMANN_CONSTANT * temperature**4
-    received = black @ factors + above * exchange.sky_share + below * exchange.ground_share
-    radiosity = emissivity * black + (1.0 - emissivity) * received
-    return np.asarray(radiosity @ factors - above * exchange.sky_taken - below * exchange.ground_taken)
-
-
-def largest_possible_change(
-    exchange: Exchange,
-    *,
-    sky_difference: ArrayLike,
-    ground_difference: ArrayLike,
-    greatest_temperature: float,
-    emissivity: ArrayLike = 1.0,
-) -> FloatArray:
-    """Bound [W m-2] of what neighbours can change in the long-wave load that n surfaces absorb, shape (n,).
-
-    Differences [K] bound how far the radiant temperatures of neighbours, ground and sky lie from that of the sky, and
-    from that of the ground.
-    By the mean value theorem |s T1^4 - s T2^4| <= 4 s T^3 |T1 - T2|, with s the Stefan-Boltzmann constant and T the
-    greatest radiant temperature. A neighbour that hides a share of the sky changes the irradiance by at most that
-    share times the bound for the sky's difference, and so for the ground; the sum is absorbed by the surface's
-    emissivity. A grey neighbour's radiosity is a mean, with weights that add up to one, of black neighbours, sky and
-    ground: its radiant temperature is no farther from either than the farthest of those.
-    """
-    slope = 4.0 * STEFAN_BOLTZMANN_CONSTANT * greatest_temperature**3
-    sky, ground = np.abs(np.asarray(sky_difference)), np.abs(np.asarray(ground_difference))
-    change = slope * (sky * exchange.sky_taken + ground * exchange.ground_taken)
-    if not (np.all(np.isfinite(change)) and greatest_temperature > 0.0):
-        raise InputError("exchange", "differences", float(np.max(change)), "not a finite bound [W m-2]", "give kelvin")
-    return np.asarray(np.asarray(emissivity) * change)

@@ -17,9 +17,13 @@ from sensorsim.thermal.paths import march_paths
 
 
 def ground_temperature(
-    environment: Environment, soil: WallType, *, sky: str = "perez", plan: EffectPlan = EVERYTHING
-) -> FloatArray:
-    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves."""
+    environment: Environment, soil: WallType, *, sky: str = "perez", repeated: bool = False,
+    plan: EffectPlan = EVERYTHING,
+) -> FloatArray:  # fmt: skip
+    """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves.
+
+    It begins linear, or as the first day leaves it when that is `repeated`; melting snow never does.
+    """
     up = np.array([[0.0, 0.0, 1.0]])
     # A plane that faces up sees no ground.
     exposure = expose(environment, up, environment.air_temperature, sky=sky, plan=plan)
@@ -32,7 +36,7 @@ def ground_temperature(
     samples = np.arange(environment.time.size)
     history = march_paths(
         soil, outside._replace(irradiance=absorbed), inside, np.ones(1), step=environment.step, record=samples,
-        melting_depth=melting_depth(soil),
+        melting_depth=melting_depth(soil), repeated=repeated and melting_depth(soil) == 0.0,
     )  # fmt: skip
     temperature = history.exterior[:, 0, 0]
     if not plan.has("snow"):

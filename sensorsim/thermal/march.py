@@ -44,8 +44,9 @@ def march(
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
     The start is linear between interior and exterior air, as in section 3.6.1 of [Report1978], unless cell
-    temperatures `start` (n,) [K] are given. The inside of a curved `grid` is given per its own area, as elsewhere;
-    heats come per exterior area. A solid one has no inside: its innermost cell stands for the interior face.
+    temperatures `start` (n,), or (n, m) of all columns, [K] are given; faces then begin as the cells next to them. The
+    inside of a curved `grid` is given per its own area, as elsewhere; heats come per exterior area. A solid one has no
+    inside: its innermost cell stands for the interior face.
 
     Snow down to `melting_depth` [m] melts rather than warm: after each step its cells are set back to 0 C, and the heat
     taken from them is counted. Within the step its face gets above 0 C by some kelvin at most and loses more heat
@@ -130,10 +131,11 @@ def _start(
     share = reach / reach[-1]
     line = outside.air[0] + (inside.air[0] - outside.air[0]) * share
     profile = line[1:-1] if start is None else start
-    faces = np.repeat(line[[0, -1], None], count, axis=1)
+    cells = profile if profile.ndim == 2 else np.repeat(profile[:, None], count, axis=1)
+    ends = line[[0, -1], None] if start is None or start.size == 0 else cells[[0, -1]]
     return Columns(
-        cells=np.repeat(profile[:, None], count, axis=1) - ZERO_CELSIUS,
-        faces=faces - ZERO_CELSIUS,
+        cells=cells - ZERO_CELSIUS,
+        faces=np.broadcast_to(ends, (2, count)) - ZERO_CELSIUS,
         films=np.full((2, count), 5.0),
         heat=np.zeros((2, count)),
         orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),

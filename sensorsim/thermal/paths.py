@@ -15,6 +15,7 @@ import numpy as np
 from sensorsim.thermal.boundary import Inside, Outside
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.march import History, march
+from sensorsim.thermal.periodic_start import settled_cells
 
 
 class PathLike(Protocol):
@@ -78,15 +79,20 @@ def march_paths(
     keep_nodes: bool = False,
     start: float | None = None,
     melting_depth: float = 0.0,
+    repeated: bool = False,
 ) -> History:
     """March all paths of a construction or wall type, of any shape, as `march` does layers, and join them by area.
 
-    With a temperature `start` [K] all cells of all paths begin there; `melting_depth` [m] is that of `march`.
+    With a temperature `start` [K] all cells of all paths begin there, `repeated` as the first day leaves them when it
+    is repeated; `melting_depth` [m] is that of `march`.
     Grid and node temperatures are those of the widest path.
     """
     paths = wall_paths(wall, step)
     histories = []
     for place, path in enumerate(paths):
+        cells = None if start is None else np.full(path.grid.capacity.size, start)
+        if repeated:
+            cells = settled_cells(path.layers, path.grid, outside, inside, absorptances, step)
         histories.append(
             march(
                 path.layers,
@@ -97,7 +103,7 @@ def march_paths(
                 record=record,
                 keep_nodes=keep_nodes and place == 0,
                 grid=path.grid,
-                start=None if start is None else np.full(path.grid.capacity.size, start),
+                start=cells,
                 melting_depth=melting_depth,
             )
         )

@@ -24,6 +24,8 @@ class WallHistory:
     time: FloatArray  # (t,) [s]
     exterior: FloatArray  # (t,) exterior surface temperature [K]
     interior: FloatArray  # (t,) interior surface temperature [K]
+    share: FloatArray  # (p,) of the area, of each of its parallel paths [-]
+    faces: FloatArray  # (p, t) exterior surface temperature of each of them [K]
     nodes: FloatArray | None  # (t, n) cell temperatures [K], exterior first, where asked for
     grid: WallGrid
     surface: WallSurface
@@ -67,6 +69,8 @@ def march_wall(
     emissivity: float,
     interior_emissivity: float,
     sky_view: float,
+    shape: str = "slab",
+    radius: float | None = None,
     step: float = LONGEST_STEP,
     start: str = "auto",
     lead_in: int | None = None,
@@ -76,8 +80,10 @@ def march_wall(
     """March a wall, layers exterior first, through its boundary series.
 
     absorptance (solar), emissivity, interior_emissivity and sky_view (share of sky before the exterior face) [0 to 1].
-    step: longest internal step [s]; each interval between samples has equal ones. start, lead_in [days]: as in
-    `wall_start.make_start`. progress is called with samples done and samples in all.
+    shape: slab, cylinder or sphere, the curved ones with the radius [m] of the exterior face; heats come per exterior
+    area, and of a solid one the innermost cell stands for the interior face. step: longest internal step [s]; each
+    interval between samples has equal ones. start, lead_in [days]: as in `wall_start.make_start`. progress is called
+    with samples done and samples in all.
     Raises InputError for what cannot be honoured, NumericsError where a heat balance does not converge.
     """
     surface = WallSurface(
@@ -89,7 +95,7 @@ def march_wall(
     _require_wall(layers, surface, step)
     require_valid(boundary)
     counts = step_counts(boundary.time, step)
-    steps = WallSteps(wall_grid(layers, boundary.time, counts), surface)
+    steps = WallSteps(wall_grid(layers, boundary.time, counts, shape=shape, radius=radius), surface)
     began = make_start(steps, boundary, kind=start, lead_in=lead_in, step=step)
     first = steps.columns.cells[:, 0].copy()
     states = _states(steps, boundary, counts, keep_nodes, progress)
@@ -97,6 +103,8 @@ def march_wall(
         time=boundary.time,
         exterior=states[2],
         interior=states[3],
+        share=np.ones(1),
+        faces=states[2:3],
         nodes=states[4:].T if keep_nodes else None,
         grid=steps.grid,
         surface=surface,
@@ -116,7 +124,7 @@ def exterior_loads(history: WallHistory, boundary: WallBoundary) -> WallLoads:
         ground_reflected=surface.absorptance * boundary.ground_reflected,
         sky_radiation=grey * surface.sky_view * (boundary.sky_temperature**4 - face**4),
         ground_radiation=grey * (1.0 - surface.sky_view) * (boundary.ground_temperature**4 - face**4),
-        convection=boundary.exterior_film * (boundary.air_temperature - face),
+        convection=boundary.exterior_film * (boundary.air_temperature - history.share @ history.faces),
     )
 
 

@@ -26,25 +26,30 @@ class WallModes:
         return 1.0 / float(self.rate[0]) if self.rate[0] > 0.0 else float("inf")
 
     def limit(self, change: FloatArray, period: float) -> FloatArray:
-        """What a change (n,) over one `period` [s] adds up to when the period is repeated for ever."""
+        """What a change (n,) or (n, m) over one `period` [s] adds up to when the period is repeated for ever."""
         share = -np.expm1(-np.maximum(self.rate, 0.0) * period)
-        amplitude = self.pattern.T @ (self.root * change) / np.maximum(share, 1e-9)
-        return np.asarray(self.pattern @ amplitude / self.root)
+        amplitude = self.pattern.T @ (self.root * change.T).T
+        return np.asarray(((self.pattern @ (amplitude.T / np.maximum(share, 1e-9)).T).T / self.root).T)
 
 
 def wall_modes(grid: WallGrid, boundary: WallBoundary, surface: WallSurface) -> WallModes:
     """Modes of a wall at the mean of its boundary."""
     outer = _film(boundary.exterior_film, boundary.air_temperature, surface.emissivity)
     inner = _film(boundary.interior_film, boundary.interior_air_temperature, surface.interior_emissivity)
+    return grid_modes(grid, outer, grid.interior_area * inner)
+
+
+def grid_modes(grid: WallGrid, outer: float, inner: float) -> WallModes:
+    """Modes of a wall under films [W m-2 K-1] for convection and radiation, both per unit of its exterior area."""
     root = np.sqrt(grid.capacity)
     if root.size == 0:
         return WallModes(rate=root, pattern=np.zeros((0, 0)), root=root)
     link = grid.conductance.copy()
     link[0] *= outer / (link[0] + outer)
-    link[-1] *= inner / (link[-1] + inner)
+    link[-1] *= inner / max(link[-1] + inner, 1e-300)  # both are 0 at the centre of a solid
     diagonal = (link[:-1] + link[1:]) / grid.capacity
     rate, pattern = eigh_tridiagonal(diagonal, -link[1:-1] / (root[:-1] * root[1:]))
-    if outer + inner == 0.0:
+    if link[0] + link[-1] == 0.0:
         rate[0] = 0.0
     return WallModes(rate=rate, pattern=pattern, root=root)
 

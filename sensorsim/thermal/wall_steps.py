@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside
+from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import GAMMA, advance
@@ -44,12 +44,14 @@ class WallSteps:
     def state(self) -> FloatArray:
         """Heat entered through both faces [J m-2], temperatures of both faces and the cells [K]: (n + 4,)."""
         columns = self.columns
-        temperatures = np.concatenate([columns.faces[:, 0], columns.cells[:, 0]]) + ZERO_CELSIUS
+        solid = self.grid.interior_area == 0.0  # nothing passes its middle: the innermost cell stands for that face
+        inner = columns.cells[-1] if solid else columns.faces[1]
+        temperatures = np.concatenate([columns.faces[0], inner, columns.cells[:, 0]]) + ZERO_CELSIUS
         return np.concatenate([columns.heat[:, 0], temperatures])
 
     def put_line(self, exterior: float, interior: float) -> None:
         """Steady conduction between face temperatures [K]."""
-        reach = np.concatenate([[0.0], np.cumsum(1.0 / self.grid.conductance)])
+        reach = np.concatenate([[0.0], np.cumsum(1.0 / np.maximum(self.grid.conductance, 1e-12))])
         line = exterior + (interior - exterior) * reach / reach[-1] - ZERO_CELSIUS
         self.columns.cells[:, 0], self.columns.faces[:, 0] = line[1:-1], line[[0, -1]]
 
@@ -79,6 +81,7 @@ class WallSteps:
         # Newton's cube root comes down to a film fast and comes up from a film of zero slowly: begin above both ends.
         self.columns.films[0] = max(outside.film[begin, 0], outside.film[end, 0], 1e-9)
         self.columns.films[1] = max(inside.film[begin], inside.film[end], 1e-9)
+        inside = per_exterior_area(inside, self.grid.interior_area)
         step = float(f"{step:.8e}")  # so that steps alike to nine digits, as times with fractions have, share factors
         cells, damped = self._factored(step)
         failures = advance(self.columns, cells, damped, outside, inside, begin, end, step)
@@ -99,12 +102,21 @@ def step_counts(time: FloatArray, step: float) -> NDArray[np.int64]:
     return np.asarray(np.maximum(1, np.ceil(np.diff(time) / step - 1e-9)), dtype=np.int64)
 
 
-def wall_grid(layers: Sequence[LayerLike], time: FloatArray, counts: NDArray[np.int64]) -> WallGrid:
+def wall_grid(
+    layers: Sequence[LayerLike],
+    time: FloatArray,
+    counts: NDArray[np.int64],
+    *,
+    shape: str = "slab",
+    radius: float | None = None,
+) -> WallGrid:
     """Cells fine enough for the shortest step of a series."""
     shortest = max(float(np.min(np.diff(time) / counts)), FINEST)
     return build_grid(
         layers,
         shortest,
+        shape=shape,
+        radius=radius,
         step_fraction=FINER * STEP_FRACTION,
         day_fraction=FINER * DAY_FRACTION,
         growth=FINER * GROWTH,

@@ -9,7 +9,7 @@
 
 in vec3 from_camera;
 flat in vec4 record[4];
-flat in vec4 reflectance_record;
+flat in vec4 last_record;
 flat in int surface_id;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
@@ -20,16 +20,17 @@ void main() {
     Metre range = length(from_camera);
     Kelvin temperature = 0.0;
 #if TEMPERATURE
-    temperature = surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w);
+    temperature = surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w)
+                + last_record.z;
 #endif
 #if EMISSIVE && MIRRORED
     Radiance source = emitted_radiance(temperature, record[1].w, normal);
 #elif EMISSIVE
     Radiance source = own_radiance(temperature, record[1].w);
 #elif SUN
-    Radiance source = reflected_radiance(reflectance_record.x, normal, record[3]);
+    Radiance source = reflected_radiance(last_record.x, normal, record[3]);
 #else
-    Radiance source = skylit_radiance(reflectance_record.x, normal, record[3]);
+    Radiance source = skylit_radiance(last_record.x, normal, record[3]);
 #endif
 #if PATH
     source = apparent_radiance(source, range);

@@ -8,12 +8,12 @@ in int surface;
 
 out vec3 from_camera;  // [m]
 flat out vec4 record[4];
-flat out vec4 reflectance_record;
+flat out vec4 last_record;
 flat out int surface_id;
 
 void main() {
     for (int texel = 0; texel < 4; ++texel) record[texel] = surface_texel(surface, texel);
-    reflectance_record = surface_texel(surface, 4);
+    last_record = surface_texel(surface, 4);
     surface_id = surface;
     from_camera = position - view_frame.camera_position;
     gl_Position = view_frame.clip_from_camera * vec4(from_camera, 1.0);

@@ -1,7 +1,7 @@
 // Provides surface_texel(): the surfaces of the scene as records of five texels, and their layout.
 //   0: normal xyz, wall type          1: standard orientations i j k, emissivity
 //   2: weights of i j k, reflectance  3: view factors of the N E S W quarter of the sky
-//   4: reflectance in 0.8-1.1 um, feature, spare, spare
+//   4: reflectance in 0.8-1.1 um, feature, offset of near surfaces from the tables [K], spare
 uniform sampler2D surface_table;
 
 const int SURFACE_TEXELS = 5;

@@ -1,0 +1,99 @@
+"""Temperature histories: of a wall type for many orientations and absorptances, and of surfaces one by one."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from sensorsim.effects import EVERYTHING, EffectPlan
+from sensorsim.environment import Environment
+from sensorsim.materials import WallType, part_reflectance
+from sensorsim.tables.orientations import FloatArray
+from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.boundary import Outside, inside_from, outside_from
+from sensorsim.thermal.heat_balance import Exposure
+from sensorsim.thermal.interior import build_interior
+from sensorsim.thermal.lead_in import LeadIn, lead_in_of
+from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
+from sensorsim.thermal.paths import march_paths
+
+
+def wall_history(
+    environment: Environment,
+    outside: Outside,
+    wall: WallType,
+    absorptances: FloatArray,
+    record: np.ndarray,
+    *,
+    lead_in: LeadIn,
+    plan: EffectPlan = EVERYTHING,
+) -> FloatArray:
+    """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
+    inside = build_interior(
+        wall.interior,
+        environment.air_temperature,
+        environment.wind_speed,
+        environment.step,
+        wall.interior_emissivity,
+        room=wall.room,
+        heat_gain=wall.heat_gain,
+        plan=plan,
+    )
+    water = wall.cover is not None and wall.cover.kind == "water"
+    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
+    start = float(np.mean(environment.air_temperature)) if water else None
+    history = march_paths(
+        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
+        step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
+        repeated=lead_in.repeated,
+    )  # fmt: skip
+    if water and wall.cover is not None:
+        return cool_skin(history.exterior, outside, record, wall.cover)
+    return history.exterior
+
+
+def surface_histories(
+    environment: Environment,
+    exposure: Exposure,
+    walls: Sequence[WallType],
+    reflectance: FloatArray,
+    settings: BakeSettings,
+    plan: EffectPlan = EVERYTHING,
+) -> FloatArray:
+    """Temperatures (t, m) [K] of m surfaces at all samples, each with its wall type, reflectance and exposure.
+
+    They are solved at every sample of the environment, kept at those of the settings' slices, and linear between.
+    """
+    found = np.zeros(exposure.irradiance.shape)
+    for wall in dict.fromkeys(walls):
+        row = np.array([k for k, other in enumerate(walls) if other == wall])
+        part = Exposure(
+            normal=exposure.normal[row], irradiance=exposure.irradiance[:, row], longwave=exposure.longwave[:, row]
+        )
+        found[:, row] = _surfaces_of(environment, part, wall, reflectance[row], settings, plan)
+    return found
+
+
+def _surfaces_of(
+    environment: Environment, exposure: Exposure, wall: WallType, reflectance: FloatArray, settings: BakeSettings,
+    plan: EffectPlan,
+) -> FloatArray:  # fmt: skip
+    """Temperatures (t, m) [K] of surfaces of one wall type; those of a mixture are joined as `mixture` does."""
+    if wall.parts:
+        mean = sum(part.share * part.reflectance for part in wall.parts)
+        total = sum(part.share * part.wall.emissivity for part in wall.parts)
+        fourth = np.zeros(exposure.irradiance.shape)
+        for part in wall.parts:
+            own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectance])
+            temperature = _surfaces_of(environment, exposure, part.wall, own, settings, plan)
+            fourth += part.share * part.wall.emissivity / total * temperature**4
+        return np.asarray(fourth**0.25)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
+    outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
+    count, stride = environment.time.size, round(settings.slice_interval / environment.step)
+    kept = np.union1d(np.arange(environment.image_window.start % stride, count, stride), [0, count - 1])
+    whole = replace(lead_in_of(wall, environment, own=settings.lead_in_days is None), first=0)
+    history = wall_history(environment, outside, wall, np.ones(1), kept, lead_in=whole, plan=plan)[:, :, 0]
+    later = np.clip(np.searchsorted(kept, np.arange(count)), 1, kept.size - 1)
+    share = (np.arange(count) - kept[later - 1]) / (kept[later] - kept[later - 1])
+    return np.asarray(history[later - 1] + share[:, None] * (history[later] - history[later - 1]))

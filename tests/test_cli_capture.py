@@ -1,0 +1,174 @@
+"""Sequences on disk: whole, resumed, the same from one process or several; differences judged in kelvin."""
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+import imageio.v3 as imageio
+import numpy as np
+import pytest
+from small_world import LATITUDE, LONGITUDE, town, town_features, write_town
+
+from sensorsim.cli import main
+from sensorsim.errors import InputError
+from sensorsim.frames.difference import compare_frames, difference
+from sensorsim.frames.frame import Plane
+from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path, warm_up
+from sensorsim.frames.video import write_video
+from sensorsim.render import Renderer, look_at
+from sensorsim.sensor import load_sensor
+
+AT = "1976-02-07T10:00"
+SIZE = (32, 24)
+VIEWS = [look_at([-60.0 + 3.0 * k, -80.0, 40.0], [20.0, 20.0, 5.0], 40.0) for k in range(4)]
+SHOTS = tuple(Shot(number=k, time_of_day=36000.0 + 60.0 * k, camera=view) for k, view in enumerate(VIEWS))
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
+    monkeypatch.setattr(sys, "argv", ["sensorsim", *map(str, words)])
+    with pytest.raises(SystemExit) as left:
+        main()
+    return int(left.value.code or 0)
+
+
+def digests(folder: Path) -> dict[str, str]:
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.iterdir())}
+
+
+def draw(folder: Path, name: str, numbers: range = range(4), **options: object) -> int:
+    folder.mkdir(exist_ok=True)
+    with Renderer(town(), load_sensor(name), size=SIZE) as renderer:
+        return draw_block(renderer, SHOTS, numbers, SequenceOptions(folder=folder, **options))
+
+
+def test_blocks_cover_every_frame_once() -> None:
+    assert [number for block in blocks(75) for number in block] == list(range(75))
+    assert blocks(0) == []
+
+
+@pytest.mark.parametrize("name", ["flir", "uncooled"])
+def test_cut_off_sequence_goes_on_without_redoing_or_losing_frames(tmp_path: Path, name: str) -> None:
+    assert draw(tmp_path / "whole", name, planes=("radiance",)) == 4
+    assert draw(tmp_path / "cut", name, planes=("radiance",)) == 4
+    times = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "cut").iterdir()}
+    (tmp_path / "cut" / f"{name}_000002.json").unlink()  # as a run leaves it that is ended while it writes
+    (tmp_path / "cut" / f"{name}_000003.png").unlink()
+    assert draw(tmp_path / "cut", name, planes=("radiance",)) == 2
+    assert digests(tmp_path / "cut") == digests(tmp_path / "whole")
+    kept = [path for path in (tmp_path / "cut").iterdir() if path.stem.endswith(("000000", "000001"))]
+    assert kept
+    assert all(path.stat().st_mtime_ns == times[path.name] for path in kept)
+
+
+def test_frames_of_a_detector_that_remembers_do_not_depend_on_where_work_is_cut(tmp_path: Path) -> None:
+    assert warm_up(load_sensor("uncooled")) >= 2
+    assert warm_up(load_sensor("flir")) == 0
+    draw(tmp_path / "one", "uncooled")
+    draw(tmp_path / "two", "uncooled", range(3, 4))
+    name = frame_path(SequenceOptions(folder=tmp_path), load_sensor("uncooled"), 3).name
+    assert digests(tmp_path / "two")[name] == digests(tmp_path / "one")[name]
+
+
+def test_frames_of_other_settings_are_drawn_anew(tmp_path: Path) -> None:
+    draw(tmp_path, "flir")
+    assert draw(tmp_path, "flir") == 0
+    assert draw(tmp_path, "flir", planes=("range",)) == 4  # a plane more
+    moved = tuple(Shot(number=s.number, time_of_day=s.time_of_day + 1.0, camera=s.camera) for s in SHOTS)
+    with Renderer(town(), load_sensor("flir"), size=SIZE) as renderer:
+        assert draw_block(renderer, moved, range(4), SequenceOptions(folder=tmp_path)) == 4
+
+
+def test_capture_is_the_same_from_one_process_and_from_two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = write_town(tmp_path, town_features())
+    route = tmp_path / "route.csv"
+    rows = [f"{k / 2},{LATITUDE - 1e-3},{LONGITUDE + 1e-4 * k},40,10,-12,0,50" for k in range(3)]
+    route.write_text("\n".join(["t,lat,lon,alt,yaw,pitch,roll,hfov", *rows]), encoding="utf-8")
+    common = ("capture", scene, "--at", AT, "--path", route, "--sensors", "uncooled", "--size", "32x24")
+    for jobs in (1, 2):
+        assert run(monkeypatch, *common, "--preset", "report", "--out", tmp_path / str(jobs), "--jobs", jobs) == 0
+    assert digests(tmp_path / "1") == digests(tmp_path / "2")
+    assert len(digests(tmp_path / "1")) == 6
+
+
+def test_capture_through_the_day_makes_a_video(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = write_town(tmp_path, town_features())
+    words = ("--at", AT, "--until", "1976-02-07T11:00", "--every", "1200", "--size", "32x24", "--preset", "report")
+    assert run(monkeypatch, "capture", scene, *words, "--video", "gif", "--out", tmp_path / "day") == 0
+    assert imageio.imread(tmp_path / "day" / "flir.gif", index=None).shape[:3] == (4, 24, 32)
+    hours = [
+        json.loads(path.read_text())["settings"]["time_of_day_s"] for path in sorted((tmp_path / "day").glob("*.json"))
+    ]
+    assert hours == [36000.0, 37200.0, 38400.0, 39600.0]
+
+
+def test_pictures_become_an_mp4_of_the_same_greys(tmp_path: Path) -> None:
+    draw(tmp_path, "flir")
+    pictures = [frame_path(SequenceOptions(folder=tmp_path), load_sensor("flir"), number) for number in range(4)]
+    write_video(pictures, tmp_path / "flir.mp4", 25.0)
+    frames = imageio.imread(tmp_path / "flir.mp4", plugin="pyav")
+    assert frames.shape[:3] == (4, 24, 32)
+    drawn = np.stack([imageio.imread(path) for path in pictures])
+    assert np.abs(frames[..., 0].astype(float) - drawn).mean() < 12.0  # compression, and a narrower range of greys
+    assert not list(tmp_path.glob(".*partial*"))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--until", "1976-02-07T09:00"), "before --at"),
+        (("--until", "1976-02-08T09:00"), "leaves the day"),
+        (("--every", "0"), "--every = 0.0: not above 0"),
+        (("--jobs", "0"), "--jobs = 0"),
+        (("--format", "bmp"), "--format = 'bmp': unknown"),
+        (("--video", "avi"), "--video = 'avi'"),
+        (("--sensors", "flir,radar"), "sensor = 'radar': unknown"),
+    ],
+)
+def test_capture_refuses_what_it_cannot_do(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+    said: str,
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    common = ("capture", scene, "--at", AT, "--size", "32x24", "--preset", "report", "--out", tmp_path / "out")
+    assert run(monkeypatch, *common, *words) == 2
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_diff_judges_by_its_tolerance(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    for name, at in (("a", "1976-02-07T10:00"), ("b", "1976-02-07T10:30")):
+        words = ("--at", at, "--size", "32x24", "--preset", "report", "--planes", "apparent_temperature")
+        assert run(monkeypatch, "render", scene, *words, "--out", tmp_path / f"{name}.png") == 0
+    a, b = tmp_path / "a.png", tmp_path / "b.png"
+    assert run(monkeypatch, "diff", a, a, "--tolerance", "0") == 0
+    assert run(monkeypatch, "diff", a, b, "--tolerance", "0.001") == 3
+    assert "failed: allowed 0.001 K" in capsys.readouterr().out
+    found = compare_frames(a, b)
+    assert run(monkeypatch, "diff", a, b, "--tolerance", found.largest + 1e-6, "--json") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["passed"]
+    assert told["largest"] == pytest.approx(found.largest)
+    assert found.mean > 0.0  # the morning warms the town
+    assert run(monkeypatch, "diff", a, b, "--plane", "range") == 2
+
+
+def test_difference_counts_what_only_one_frame_sees() -> None:
+    one = Plane(name="range", data=np.array([[0.0, 5.0, 7.0]]), unit="m", description="", no_surface=0.0)
+    other = Plane(name="range", data=np.array([[3.0, 5.5, 7.0]]), unit="m", description="", no_surface=0.0)
+    found = difference(one, other)
+    assert (found.pixels, found.unmatched, found.largest, found.mean) == (2, 1, 0.5, 0.25)
+
+
+def test_diff_refuses_what_has_no_plane_in_common(tmp_path: Path) -> None:
+    draw(tmp_path, "flir", suffix=".npy", planes=("range",))
+    with pytest.raises(InputError, match="none in common"):
+        compare_frames(tmp_path / "flir_000000.npy", tmp_path / "flir_000001.npy")
+    with pytest.raises(InputError, match=r"missing|No such file"):
+        compare_frames(tmp_path / "flir_000000.npy", tmp_path / "nothing.png")
