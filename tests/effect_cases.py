@@ -18,7 +18,14 @@ from sensorsim.tables.orientations import orientation_set
 
 FloatArray = NDArray[np.float64]
 COARSE = BakeSettings(
-    orientations="report10", reflectances=(0.1, 0.9), degree=1, step=1200.0, slice_interval=3600.0, lead_in_days=1.0
+    interpolation="barycentric",
+    lobes=0.0,
+    orientations="report10",
+    reflectances=(0.1, 0.9),
+    degree=1,
+    step=1200.0,
+    slice_interval=3600.0,
+    lead_in_days=1.0,
 )
 DAYS = {"winter": date(1976, 2, 7), "summer": date(1976, 9, 3), "fall": date(1976, 10, 7)}
 Change = Callable[[Environment], Environment]
@@ -62,7 +69,7 @@ def temperatures(
     """Temperature [K] of all walls, orientations and solved reflectances, and of the ground, as one row per slice."""
     tables = bake_tables(weather, walls, ground=ground, settings=settings, plan=plan)
     powers = np.vander(settings.reflectances, settings.degree + 1, increasing=True)
-    solved = tables.coefficients.astype(np.float64) @ powers.T
+    solved = tables.coefficients.astype(np.float64) @ powers.T + tables.level[:, :, None, None]
     return np.column_stack([solved.reshape(tables.time_of_day.size, -1), tables.ground_temperature])
 
 

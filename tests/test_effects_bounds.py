@@ -32,7 +32,13 @@ TOLERANCE = DEFAULT_NOISE * NOISE_SHARE
 ROUNDING = 1e-9  # [K]
 STEPPING = 5e-4  # [K] a march that knows the room's temperatures damps other steps, within its own error of 10 mK
 QUARTERED = replace(COARSE, sky="quadrants")
-NONE_SET = {"temperature", "exchange", "spare_orientations", "spare_reflectances", "snow"}  # not terms of one wall's balance
+NONE_SET = {
+    "temperature",
+    "exchange",
+    "spare_orientations",
+    "spare_reflectances",
+    "snow",
+}  # not terms of one wall's balance
 TERMS = [effect.name for effect in EFFECTS if effect.stage == SURFACE and effect.name not in NONE_SET]
 PLAIN = (wall(*BRICK), wall(*METAL))
 

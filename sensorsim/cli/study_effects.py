@@ -8,7 +8,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from sensorsim.cli.options import AsJson, Backend, Preset, bake_progress, make_folder, read_size
+from sensorsim.cli.options import AsJson, Backend, bake_progress, make_folder, read_size
 from sensorsim.study import require_plot
 from sensorsim.study.effects_page import HEAD, row, write_effects_page
 from sensorsim.study.effects_worth import image_count, measure_effects
@@ -20,12 +20,12 @@ KEYS = ("rms_K", "max_K", "max_of_white", "bake_ms", "frame_ms", "images")
 def effects(
     out: Annotated[Path | None, typer.Option(help="HTML page with a plot; needs matplotlib.")] = None,
     size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of each picture that is compared.")] = "160x120",
-    preset: Preset = "standard",
+    preset: Annotated[str | None, typer.Option(help="How finely to bake; coarsely if left out.")] = None,
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
     """Leave out one effect at a time on the report's images and tell what that changes and what time it saves."""
-    pixels, settings = read_size(size), bake_preset(preset)
+    pixels, settings = read_size(size), None if preset is None else bake_preset(preset)
     if out is not None:
         require_plot(out.with_suffix(".png"))
         make_folder(out.parent)

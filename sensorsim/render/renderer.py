@@ -32,7 +32,7 @@ from sensorsim.sensor import (
     window_limits,
 )
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
 _BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
 FILLED = 0.8  # of the detector's range, that an automatic iris aims at
@@ -113,13 +113,9 @@ class Renderer:
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
             planes["display"] = self._display(settings, exposed(planes))
         return Picture(
-            planes=planes,
-            display=settings,
-            time_of_day=time_of_day,
-            camera=camera,
-            illumination=illumination,
+            planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
             ledger=ledger,
-        )
+        )  # fmt: skip
 
     def illuminate(self, time_of_day: float) -> Illumination:
         """Surroundings at a time of the image day [s], in the sensor's band."""
@@ -132,7 +128,6 @@ class Renderer:
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
         mesh, records = world.scene.mesh, self._records(0.0)
-        coefficients = _read_or_not(world.tables.coefficients[0].astype(np.float64))
         band = self._band_lookup()
         sky = LookupTable(
             name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
@@ -140,19 +135,22 @@ class Renderer:
         )  # fmt: skip
         self._tables = {
             "surface_table": float_table(ctx, "surface_table", records),
-            "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
         }
+        self._tables_at = 0.0
+        for name, texels in shade_texels(world.tables, self._tables_at).items():
+            self._tables[name] = float_table(ctx, name, np.nan_to_num(texels))
         generated = {
-            "coefficients": coefficient_glsl(coefficients.shape[-1]),
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             "sky_radiance": sky.glsl(),
         }
         vertices = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
         )
-        self._programs = Programs(ctx, vertices, generated, emissive=self.sensor.mode == "emissive")
+        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
+        self._programs = Programs(ctx, vertices, generated, emissive=emissive, lobes=lobes)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -193,8 +191,7 @@ class Renderer:
         if self.world.offsets is not None:
             update_table(self._tables["surface_table"], self._records(time_of_day))
         if plan.has("temperature"):
-            coefficients = _read_or_not(self.world.tables.at(time_of_day))
-            update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
+            self._set_tables(time_of_day)
         update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
         self._blocks["Illumination"].write(
             ILLUMINATION.pack(
@@ -207,6 +204,14 @@ class Renderer:
                 attenuation=illumination.attenuation,
             )
         )
+
+    def _set_tables(self, time_of_day: float) -> None:
+        """Upload the tables of a moment, where the clock has moved; what was not solved (NaN) no surface reads."""
+        if time_of_day == self._tables_at:
+            return
+        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+            update_table(self._tables[name], np.nan_to_num(texels))
+        self._tables_at = time_of_day
 
     def _draw(self, camera: Camera, plan: EffectPlan) -> None:
         position = self.world.scene.mesh.position
@@ -292,8 +297,3 @@ def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
     seen = planes["surface_id"] >= 0
     radiance: NDArray[np.float32] = planes.get("signal", planes["radiance"])
     return radiance[seen] if np.any(seen) else radiance.ravel()
-
-
-def _read_or_not(coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coefficients with 0 for those that were not solved (NaN): no surface reads them, and textures hold numbers."""
-    return np.nan_to_num(coefficients, nan=0.0)

@@ -3,13 +3,10 @@
 from dataclasses import dataclass, replace
 from datetime import date
 
-import numpy as np
-
 from sensorsim.effects import (
     DEFAULT_NOISE,
     EFFECTS,
     NOISE_SHARE,
-    SUNLIGHT,
     SURFACE,
     Bound,
     EffectChoice,
@@ -130,10 +127,7 @@ def _situation(
 def _scope(
     environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings, plan: EffectPlan
 ) -> Scope:
-    lit = plan.any_of(*SUNLIGHT) and bool(
-        np.any(environment.beam_irradiance > 0.0) or np.any(environment.diffuse_irradiance > 0.0)
-    )
-    return scene_scope(assignment, scene.surfaces.normal, settings, plan, lit=lit)
+    return scene_scope(environment, assignment, scene.surfaces.normal, settings, plan)
 
 
 def _worth(
@@ -169,12 +163,16 @@ def _spared(environment: Environment, assignment: Assignment, scene: Scene, sett
     turned = EffectPlan(off=("spare_orientations",))
     seen = _scope(environment, assignment, scene, settings, turned).columns
     shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances")).columns
-    samples = environment.time.size
+    samples, all_needed = environment.time.size, "a spline, the closest three and lobes are made from all of them"
     return {
         "spare_orientations": Bound(
-            value=0.0, reason=f"surfaces show {seen} of {whole} histories", saves=march_cost(whole - seen, samples)
+            value=0.0,
+            reason=f"surfaces show {seen} of {whole} histories" if seen < whole else all_needed,
+            saves=march_cost(whole - seen, samples),
         ),
         "spare_reflectances": Bound(
-            value=0.0, reason=f"surfaces need {shown} of these {seen}", saves=march_cost(seen - shown, samples)
+            value=0.0,
+            reason="no light to reflect" if shown < seen else "sunlight tells them apart",
+            saves=march_cost(seen - shown, samples),
         ),
     }

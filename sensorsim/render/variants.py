@@ -12,15 +12,17 @@ from sensorsim.render.passes import Pass, background_pass, surface_pass
 Defines = Mapping[str, int]
 
 
-def surface_defines(plan: EffectPlan, *, emissive: bool) -> Defines:
-    """Defines of the program that draws surfaces by this plan.
+def surface_defines(plan: EffectPlan, *, emissive: bool, lobes: bool) -> Defines:
+    """Defines of the program that draws surfaces by this plan, from tables with lobes of the sun or without.
 
     Light of sky and ground in a reflective band has no define of its own: no frame is without it but on request, and
     then it is drawn with nothing to add.
     """
+    temperature = emissive or plan.has("temperature")
     return {
         "EMISSIVE": int(emissive),
-        "TEMPERATURE": int(emissive or plan.has("temperature")),
+        "TEMPERATURE": int(temperature),
+        "LOBES": int(temperature and lobes),
         "MIRRORED": int(emissive and plan.has("reflected_sky")),
         "SUN": int(not emissive and plan.has("reflected_sun")),
         "PATH": int(plan.has("atmosphere")),
@@ -41,9 +43,11 @@ def all_plans() -> tuple[EffectPlan, ...]:
     )
 
 
-def all_surface_defines() -> tuple[Defines, ...]:
-    """Every set of defines that any plan can give to the program of the surfaces."""
-    found = [surface_defines(plan, emissive=emissive) for emissive in (False, True) for plan in all_plans()]
+def all_surface_defines(*, lobes: bool) -> tuple[Defines, ...]:
+    """Every set of defines that any plan can give to the program of the surfaces, from one kind of tables."""
+    found = [
+        surface_defines(plan, emissive=emissive, lobes=lobes) for emissive in (False, True) for plan in all_plans()
+    ]
     return tuple({tuple(defines.items()): defines for defines in found}.values())
 
 
@@ -51,14 +55,16 @@ class Programs:
     """The programs that one sensor's frames have called for so far, each built when it is first needed."""
 
     def __init__(
-        self, ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool
-    ) -> None:
-        self.ctx, self.mesh, self.generated, self.emissive = ctx, mesh, generated, emissive
+        self, ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool,
+        lobes: bool,
+    ) -> None:  # fmt: skip
+        self.ctx, self.mesh, self.generated = ctx, mesh, generated
+        self.emissive, self.lobes = emissive, lobes
         self.built: dict[tuple[str, tuple[tuple[str, int], ...]], Pass] = {}
 
     def surfaces(self, plan: EffectPlan) -> Pass:
         """The program that draws surfaces by this plan."""
-        defines = surface_defines(plan, emissive=self.emissive)
+        defines = surface_defines(plan, emissive=self.emissive, lobes=self.lobes)
         key = "surfaces", tuple(defines.items())
         if key not in self.built:
             self.built[key] = surface_pass(self.ctx, self.mesh, self.generated, defines)

@@ -25,6 +25,11 @@ Progress = Callable[[str, int, int], None]
 SENSORS = ("flir", "lltv")
 SPARE = frozenset({"spare_orientations", "spare_reflectances"})
 BASE = EffectChoice(base="all", refused=SPARE)  # the same pictures as with them, and much sooner
+# Coarser than a frame would be baked, since only differences count, and with as many orientations as scenes show.
+STUDY = BakeSettings(
+    orientations="icosphere42", interpolation="barycentric", lobes=0.0, reflectances=(0.1, 0.5, 0.9), degree=2,
+    step=900.0, slice_interval=3600.0, lead_in_days=2.0,
+)  # fmt: skip
 FRAME_SIZE, FRAMES = (640, 480), 8  # of the frames that are timed, and how many the best is taken of
 
 
@@ -86,7 +91,7 @@ def measure_effects(
     progress: Progress | None = None,
 ) -> list[EffectWorth]:  # fmt: skip
     """Worth of each effect that the settings' sky has."""
-    settings = BakeSettings() if settings is None else settings
+    settings = STUDY if settings is None else settings
     found = [EffectWorth(effect=effect.name) for effect in EFFECTS if effect.sky in (None, settings.sky)]
     worlds = sorted({(figure.level, day) for figure in FIGURES for day, _ in figure.moments}, reverse=True)
     for done, (level, day) in enumerate(worlds):
@@ -118,6 +123,8 @@ def _add(place: _Place, found: Sequence[EffectWorth]) -> Iterator[EffectWorth]:
             worth.bake_ms += _bake(place.survey(EffectChoice(base="all", refused=SPARE - {name})))[1] - spent
         elif name == "temperature":
             worth.bake_ms += spent
+        elif name == "exchange":
+            pass  # an option that is not in the baseline
         elif name not in bound or bound[name] > 0.0:  # else nothing is left out
             without = place.survey(EffectChoice(base="all", refused=SPARE | {name}))
             left, less = _bake(without) if name in bound else (tables, spent)

@@ -28,10 +28,10 @@ def scene_faces(
     walls = assignment.wall_types
     faces = []
     for wall in dict.fromkeys(part for whole in walls for part in plain_walls(whole)):
-        needed, reflectances = scope.of_part(walls, wall)
+        needed = scope.of_part(walls, wall)
         own = [assignment.reflectance[assignment.wall_type == row] for row, whole in enumerate(walls) if whole == wall]
-        brightest = 1.0 if not own else 1.0 - min(*reflectances, float(np.min(own[0], initial=1.0)), 1.0)
-        faces.append(wall_face(environment, wall, scope.orientations.normal[needed], brightest, settings))
+        brightest = 1.0 if not own else 1.0 - min(*settings.reflectances, float(np.min(own[0], initial=1.0)), 1.0)
+        faces.append(wall_face(environment, wall, scope.solved[needed], brightest, settings))
     return tuple(faces)
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType, part_reflectance
-from sensorsim.tables.orientations import FloatArray
+from sensorsim.tables.mixture import mix_temperatures, part_reflectances
+from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
-from sensorsim.thermal.boundary import Outside, inside_from, outside_from
+from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
 from sensorsim.thermal.heat_balance import Exposure
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.lead_in import LeadIn, lead_in_of
@@ -26,10 +27,27 @@ def wall_history(
     record: np.ndarray,
     *,
     lead_in: LeadIn,
+    cell_size: float = 1.0,
     plan: EffectPlan = EVERYTHING,
 ) -> FloatArray:
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
-    inside = build_interior(
+    inside = inside_of(environment, wall, plan)
+    water = wall.cover is not None and wall.cover.kind == "water"
+    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
+    start = float(np.mean(environment.air_temperature)) if water else None
+    history = march_paths(
+        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
+        step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
+        repeated=lead_in.repeated, cell_size=cell_size,
+    )  # fmt: skip
+    if water and wall.cover is not None:
+        return cool_skin(history.exterior, outside, record, wall.cover)
+    return history.exterior
+
+
+def inside_of(environment: Environment, wall: WallType, plan: EffectPlan = EVERYTHING) -> Inside:
+    """What acts on the interior face of a wall type in this weather."""
+    return build_interior(
         wall.interior,
         environment.air_temperature,
         environment.wind_speed,
@@ -39,17 +57,28 @@ def wall_history(
         heat_gain=wall.heat_gain,
         plan=plan,
     )
-    water = wall.cover is not None and wall.cover.kind == "water"
-    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
-    start = float(np.mean(environment.air_temperature)) if water else None
-    history = march_paths(
-        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
-        step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
-        repeated=lead_in.repeated,
+
+
+def solve_histories(
+    environment: Environment, exposure: Exposure, wall: WallType, reflectances: FloatArray, record: IntArray, *,
+    settings: BakeSettings, plan: EffectPlan = EVERYTHING,
+) -> FloatArray:  # fmt: skip
+    """Surface temperature (t, o, r) [K] of any wall type at the samples `record` (t,), at solar reflectances (r,).
+
+    Of a mixed one every part is solved at the reflectances that are its own.
+    """
+    if wall.parts:
+        parts = [
+            solve_histories(environment, exposure, part.wall, own, record, settings=settings, plan=plan)
+            for part, own in zip(wall.parts, part_reflectances(wall, reflectances), strict=True)
+        ]
+        return mix_temperatures(wall, parts)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
+    lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
+    return wall_history(
+        environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size,
+        plan=plan,
     )  # fmt: skip
-    if water and wall.cover is not None:
-        return cool_skin(history.exterior, outside, record, wall.cover)
-    return history.exterior
 
 
 def surface_histories(

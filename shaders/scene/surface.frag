@@ -1,8 +1,7 @@
 #version 330 core
 // Provides: band radiance at the sensor [W m-2 sr-1], surface temperature [K], range [m] and surface id of a surface.
-// EMISSIVE 1: thermal bands, 0: reflective bands. By the effects that a frame calls for, 1 or 0: TEMPERATURE (else it
-// stays 0), MIRRORED surroundings in thermal bands, SUN in reflective bands, PATH through the air.
-#include "radiance/shade.glsl"
+// EMISSIVE 1: thermal bands, 0: reflective bands. By the effects that a frame calls for, 1 or 0: MIRRORED surroundings
+// in thermal bands, SUN in reflective bands, PATH through the air.
 #include "radiance/path.glsl"
 #include "radiance/emitted.glsl"
 #include "radiance/reflected.glsl"
@@ -11,6 +10,7 @@ in vec3 from_camera;
 flat in vec4 record[4];
 flat in vec4 last_record;
 flat in int surface_id;
+flat in float temperature;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
 layout(location = 1) out int id;
@@ -18,11 +18,6 @@ layout(location = 1) out int id;
 void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
-    Kelvin temperature = 0.0;
-#if TEMPERATURE
-    temperature = surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w)
-                + last_record.z;
-#endif
 #if EMISSIVE && MIRRORED
     Radiance source = emitted_radiance(temperature, record[1].w, normal);
 #elif EMISSIVE
