@@ -99,7 +99,7 @@ def town(tmp_path: Path, choice: str, sensor: str = "flir", settings: BakeSettin
 
 
 def test_spare_histories_are_neither_solved_nor_different(tmp_path: Path) -> None:
-    """What is solved of a scene's orientations alone is the same, but for the level that single precision counts from."""
+    """What is solved of a scene's orientations alone is the same, to single precision of its level."""
     whole, lean = (town(tmp_path, choice, settings=FINER) for choice in ("all", "all,-spare_orientations"))
     assert lean.tables.orientations.normal.shape[0] < whole.tables.orientations.normal.shape[0]
     place = [int(np.argmax(whole.tables.orientations.normal @ normal)) for normal in lean.tables.orientations.normal]

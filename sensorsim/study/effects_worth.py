@@ -112,6 +112,7 @@ def image_count() -> int:
 def _add(place: _Place, found: Sequence[EffectWorth]) -> Iterator[EffectWorth]:
     """Add what each effect is worth at one place."""
     survey = place.survey(BASE)
+    _bake(survey)  # compiled code is loaded, and memory warm
     tables, spent = _bake(survey)
     whole = {sensor: place.look(survey, tables, sensor) for sensor in SENSORS}
     called = _called(place, tables)
