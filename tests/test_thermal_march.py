@@ -33,6 +33,7 @@ def _rough_weather(samples: int, orientations: int, *, seed: int = 3) -> tuple[O
         free=rng.uniform(0.5, 4.0, orientations),
         air=air,
         emissivity=0.9,
+        free_colder=rng.uniform(0.5, 4.0, orientations),
     )
     inside = Inside(air=room, radiant=room + 2.0, film=rng.uniform(0.0, 4.0, samples), free=2.2, emissivity=0.8)
     return outside, inside
@@ -46,6 +47,7 @@ def _only(outside: Outside, orientation: int) -> Outside:
         longwave=np.ascontiguousarray(outside.longwave[:, one]),
         film=np.ascontiguousarray(outside.film[:, one]),
         free=np.ascontiguousarray(outside.free[one]),
+        free_colder=np.ascontiguousarray(outside.free_colder[one]),
     )
 
 
@@ -87,7 +89,8 @@ def _face_gain(history: History, outside: Outside) -> FloatArray:
     """Heat [W m-2] that the exterior face takes from its surroundings at the recorded samples (t, o, a)."""
     face, rows = history.exterior, history.sample
     difference = outside.air[rows, None, None] - face
-    cube = outside.film[rows, :, None] ** 3 + outside.free[None, :, None] * np.abs(difference)
+    free = np.where(difference < 0.0, outside.free[None, :, None], outside.free_colder[None, :, None])
+    cube = outside.film[rows, :, None] ** 3 + free * np.abs(difference)
     sun = ABSORPTANCES * outside.irradiance[rows, :, None]
     glow = outside.emissivity * (outside.longwave[rows, :, None] - SIGMA * face**4)
     return np.asarray(sun + glow + np.cbrt(cube) * difference)
@@ -101,6 +104,27 @@ def test_faces_are_in_balance_with_their_surroundings_at_every_sample() -> None:
     assert history.nodes is not None
     conducted = history.grid.conductance[0] * (history.exterior - history.nodes[:, 0])
     assert np.abs(_face_gain(history, outside) - conducted).max() < 1e-5
+
+
+@pytest.mark.parametrize("flux", [-60.0, -1e-3, 1e-3, 60.0])
+def test_free_film_goes_by_whether_the_face_is_warmer_or_colder_than_the_air(flux: float) -> None:
+    """Rationale: a roof sheds warm air and keeps cold air. Expected: q = c |dT|^(4/3) with the c of its own sign."""
+    count, sheds, holds = 20, 1.5**3, 0.8**3
+    sun, sky = (flux, 0.0) if flux > 0.0 else (0.0, -flux)
+    outside = outdoors(constant(280.0, count), 0.0, sun=sun)._replace(
+        free=np.array([sheds]), free_colder=np.array([holds])
+    )
+    inside = indoors(constant(280.0, count), 0.0)._replace(
+        radiant=constant(0.0, count), emissivity=0.0, film=constant(1e-9, count)
+    )
+    if sky:  # a face that loses heat by radiation alone, to a surrounding that is short of `flux`
+        outside = outside._replace(emissivity=1e-3, longwave=np.full((count, 1), SIGMA * 280.0**4 - sky / 1e-3))
+    history = march([gap(1e9)], outside, inside, np.ones(1), step=STEP, record=np.array([count - 1]))
+    difference = float(history.exterior[0, 0, 0]) - 280.0
+    radiated = float(outside.emissivity) * SIGMA * ((280.0 + difference) ** 4 - 280.0**4)
+    strength = sheds if flux > 0.0 else holds
+    exact = np.sign(flux) * (np.abs(flux - radiated) / strength ** (1.0 / 3.0)) ** 0.75
+    assert difference == pytest.approx(exact, rel=1e-6)
 
 
 def test_a_mirrored_wall_gives_mirrored_temperatures() -> None:

@@ -11,7 +11,7 @@ from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.environment import Environment, build_environment, read_weather
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType, load_catalogue
-from sensorsim.thermal import build_interior, expose, ground_temperature
+from sensorsim.thermal import build_interior, expose, ground_temperature, outside_of
 
 STEP = 600.0
 CONDITIONS = ("heated", "cooled", "unheated", "open", "none")
@@ -142,3 +142,13 @@ def test_surroundings_at_one_temperature_send_its_blackbody_flux(winter: Environ
     for sky in ("perez", "quadrants"):
         exposure = expose(isothermal, _normals(100), same, sky=sky)
         np.testing.assert_allclose(exposure.longwave, 5.670374419e-8 * 280.0**4, rtol=1e-12)
+
+
+def test_roof_sheds_warm_air_and_keeps_cold_air_while_a_wall_does_neither(winter: Environment) -> None:
+    """Expected: the cubes of 9.482 / 6.238 and 1.810 / 2.382 for a level surface [Walton1983], whatever the air."""
+    normal = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])
+    exposure = expose(winter, normal, winter.air_temperature)
+    outside = outside_of(winter, exposure, emissivity=0.9, roughness="rough")
+    ratio = np.cbrt(outside.free_colder / outside.free)
+    sheds, keeps = 9.482 / 6.238, 1.810 / 2.382
+    np.testing.assert_allclose(ratio, [keeps / sheds, sheds / keeps, 1.0], rtol=1e-3)

@@ -94,7 +94,10 @@ def surface_history(setup: Setup) -> FloatArray:
     environment, wall = setup.environment, setup.wall
     outside = surface_boundary(environment, expose(environment, normal_of(setup), setup.soil), wall)
     outside = outside._replace(
-        film=setup.film * outside.film, free=setup.film**3 * outside.free, latent=setup.evaporation * outside.latent
+        film=setup.film * outside.film,
+        free=setup.film**3 * outside.free,
+        free_colder=setup.film**3 * outside.free_colder,
+        latent=setup.evaporation * outside.latent,
     )
     air = environment.air_temperature
     inside = build_interior(

@@ -37,6 +37,7 @@ def rough_weather(count: int, orientations: int, seed: int = 3) -> tuple[Outside
         longwave=rng.uniform(200.0, 420.0, (count, orientations)),
         film=rng.uniform(0.0, 40.0, (count, orientations)),
         free=rng.uniform(0.5, 4.0, orientations),
+        free_colder=rng.uniform(0.1, 4.0, orientations),
         air=air,
         emissivity=0.9,
     )
@@ -119,7 +120,7 @@ def _in_a_batch() -> float:
             one = slice(row, row + 1)
             single = outside._replace(
                 irradiance=outside.irradiance[:, one], longwave=outside.longwave[:, one], film=outside.film[:, one],
-                free=outside.free[one],
+                free=outside.free[one], free_colder=outside.free_colder[one],
             )  # fmt: skip
             alone = march(layers, single, inside, np.array([0.7]), step=600.0, record=every)
             worst = max(worst, float(np.abs(alone.exterior[:, 0] - together.exterior[:, row]).max()))

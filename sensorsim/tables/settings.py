@@ -13,6 +13,10 @@ lobes 1800 s, the same                                        0.08 / 0.38   198
 lobes 900 s, the same: the default                            0.08 / 0.29   198
 lobes 1800 s, spline through octahedron146                    0.05 / 0.27   438
 
+The default over the whole catalogue, 36 normals, every hour: 0.10 / 0.33 in winter, 0.08 / 0.21 in fall, 0.03 / 0.10 in
+summer, snow apart, which melts: 0.2 to 0.6 / 0.5 to 1.8. Clear sun in perfectly still air, insulated faces to 87 C:
+0.20 / 0.5, snow 1.2 / 2.7.
+
 At the default's orientations a degree of 1 through three reflectances gives 0.09 / 0.39, two reflectances 0.29 / 0.69,
 four and a cubic the same as three; slices of 10 and 15 minutes 0.14 / 0.47 and 0.22 / 0.87, because the sun leaves a
 sheet of metal within minutes; half precision the same as single.
@@ -57,11 +61,7 @@ class BakeSettings:
             ("orientations", self.orientations not in LAYOUTS, f"use one of {', '.join(LAYOUTS)}"),
             ("interpolation", self.interpolation not in INTERPOLATIONS, f"use one of {', '.join(INTERPOLATIONS)}"),
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
-            (
-                "lobes",
-                self.lobes != 0 and not (60.0 <= self.lobes <= 21600.0 and _is_whole(SECONDS_PER_DAY, self.lobes)),
-                "use 0, or 60 to 21600 s that divide the day",
-            ),
+            ("lobes", not self._lobes_fit(), "use 0, or 60 to 21600 s that divide the day"),
             ("cell_size", not 0.05 <= self.cell_size <= 5.0, "use a size from 0.05 to 5"),
             ("precision", self.precision not in PRECISIONS, f"use one of {', '.join(PRECISIONS)}"),
             ("reflectances", _unusable(self.reflectances), "give different values between 0 and 1"),
@@ -86,6 +86,9 @@ class BakeSettings:
         ):
             if broken:
                 raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
+
+    def _lobes_fit(self) -> bool:
+        return self.lobes == 0 or (60.0 <= self.lobes <= 21600.0 and _is_whole(SECONDS_PER_DAY, self.lobes))
 
     def to_dict(self) -> dict[str, Any]:
         """All settings by name."""

@@ -17,13 +17,13 @@ FloatArray = NDArray[np.float64]
 class Cells(NamedTuple):
     """A wall's linear part, factored for one step length."""
 
-    rate: FloatArray  # (n,) capacity / (gamma step) [W m-2 K-1]
-    conductance: FloatArray  # (n + 1,) [W m-2 K-1]
-    pivot: FloatArray  # (n,) reciprocal pivots of the elimination [m2 K W-1]
-    influence: FloatArray  # (2, n) cell temperatures per kelvin of the exterior and of the interior face [-]
-    exchange: FloatArray  # (2, 2) flux into the wall per kelvin of either face [W m-2 K-1]
-    stiff: NDArray[np.bool_]  # (n,) cells that relax within a step
-    lag: FloatArray  # (n,) a cell's own relaxation over the stage's span [-]
+    # (5,) flux into the exterior face per kelvin of itself and, away, of the interior one; into the interior face per
+    # kelvin of the exterior one, away, and of itself; conductance from exterior face to first cell [W m-2 K-1]
+    exchange: FloatArray
+    # (n, 6) of a cell's temperature: by its right side, by the cell inward of it; its flux into the interior face
+    # [W m-2 K-1]; by the cell outward of it, by the interior face; reach of its change in a step by that in the first
+    # stage, 0 for a cell that takes longer than a step
+    factors: FloatArray
 
 
 class Outside(NamedTuple):
@@ -32,11 +32,12 @@ class Outside(NamedTuple):
     irradiance: FloatArray  # (t, o) solar [W m-2]
     longwave: FloatArray  # (t, o) irradiance from sky and ground [W m-2]
     film: FloatArray  # (t, o) forced [W m-2 K-1]
-    free: FloatArray  # (o,) free film cubed per kelvin [W3 m-6 K-4]
+    free: FloatArray  # (o,) free film cubed per kelvin, of a face warmer than the air [W3 m-6 K-4]
     air: FloatArray  # (t,) [K]
     emissivity: float
     latent: FloatArray = np.zeros((1, 1))  # (t, o) vapour exchange [W m-2 Pa-1]; one row: a dry surface
     vapour: FloatArray = np.zeros(0)  # (t,) pressure in the air [Pa]
+    free_colder: FloatArray = np.zeros(0)  # (o,) of a face colder than the air; none: as of a warmer one
 
 
 class Inside(NamedTuple):
@@ -77,25 +78,26 @@ class Columns(NamedTuple):
     """State of all columns, updated in place."""
 
     cells: FloatArray  # (n, m) [C]
-    faces: FloatArray  # (2, m) exterior, interior [C]
-    films: FloatArray  # (2, m) total films [W m-2 K-1]
-    heat: FloatArray  # (2, m) heat that has entered through each face [J m-2]
+    carried: FloatArray  # (8, m) by pairs of the exterior and the interior face, see the properties
     orientation: NDArray[np.int64]  # (m,)
     absorptance: FloatArray  # (m,)
 
+    @property
+    def faces(self) -> FloatArray:
+        """Temperatures (2, m) [C]."""
+        return self.carried[0:2]
 
-class Work(NamedTuple):
-    """One block of l lanes, each a column, on its way through a step."""
+    @property
+    def films(self) -> FloatArray:
+        """Total films (2, m) [W m-2 K-1]."""
+        return self.carried[2:4]
 
-    now: FloatArray  # (n, l) cells at the start of the step [C]
-    first: FloatArray  # (n, l) their change in the first stage [K]
-    star: FloatArray  # (n, l) right side of the second stage [C]
-    cells: FloatArray  # (n, l) cells of the stage that is being solved [C]
-    kept: FloatArray  # (n, l) cells of the second stage, while the step is damped for some lanes [C]
-    load: FloatArray  # (12, l) what acts on the exterior face, and scratch
-    faces: FloatArray  # (2, l) at the start of the step [C]
-    ends: FloatArray  # (2, l) of the stage that is being solved [C]
-    trial: FloatArray  # (2, l) of the second stage, while the step is damped for some lanes [C]
-    films: FloatArray  # (2, l) [W m-2 K-1]
-    held: FloatArray  # (2, l) of the second stage, while the step is damped for some lanes [W m-2 K-1]
-    flux: FloatArray  # (6, l) into the wall through both faces, of stages one, two and damped [W m-2]
+    @property
+    def heat(self) -> FloatArray:
+        """Heat (2, m) that has entered through each face [J m-2]."""
+        return self.carried[4:6]
+
+    @property
+    def rise(self) -> FloatArray:
+        """What the faces' temperatures rose (2, m) in the last step [K], by which the next one's are guessed."""
+        return self.carried[6:8]

@@ -8,46 +8,32 @@ consistency (eq. 10) demands.
 import numpy as np
 
 from sensorsim.thermal.boundary import Cells
-from sensorsim.thermal.grid import FloatArray, WallGrid
+from sensorsim.thermal.grid import WallGrid
 
-STIFF = 1.2  # of a cell's own relaxation over a step: half the least mode whose SDIRK factor is negative
+STIFF = 1.0 + np.sqrt(2.0)  # of a cell's own relaxation over a step, from where the two stages may overshoot
 
 
 def factor(grid: WallGrid, span: float, step: float) -> Cells:
     """Elimination factors of a wall for an implicit stage of `span` [s] within steps of `step` [s]."""
-    rate = grid.capacity / span
-    conductance = grid.conductance
+    rate, conductance = grid.capacity / span, grid.conductance
     n = rate.size
-    stiff = step * (conductance[:-1] + conductance[1:]) > STIFF * grid.capacity
-    lag = rate / (conductance[:-1] + conductance[1:])
-    pivot = np.zeros(n)
-    for i in range(n):
-        above = conductance[i] ** 2 * pivot[i - 1] if i > 0 else 0.0
-        pivot[i] = 1.0 / (rate[i] + conductance[i] + conductance[i + 1] - above)
-    influence = np.zeros((2, n))
     if n == 0:
-        exchange = np.full((2, 2), conductance[0])
-        return Cells(rate, conductance, pivot, influence, exchange, stiff, lag)
-    sources = np.zeros((2, n))
-    sources[0, 0], sources[1, n - 1] = conductance[0], conductance[n]
-    for row in range(2):
-        influence[row] = _solve(sources[row], conductance, pivot)
-    exchange = np.array(
-        [
-            [conductance[0] * (1.0 - influence[0, 0]), conductance[0] * influence[1, 0]],
-            [conductance[n] * influence[0, n - 1], conductance[n] * (1.0 - influence[1, n - 1])],
-        ]
+        return Cells(np.array([1.0, 1.0, 1.0, 1.0, 0.0]) * conductance[0], np.zeros((0, 6)))
+    around, inner, pivot = conductance[:-1] + conductance[1:], rate + conductance[n], np.zeros(n)
+    for i in range(n - 1, -1, -1):  # sums of positive terms alone: a metal skin's differences would be all rounding
+        if i < n - 1:
+            inner[i] = rate[i] + conductance[i + 1] * inner[i + 1] * pivot[i + 1]
+        pivot[i] = 1.0 / (conductance[i] + inner[i])
+    outward, inward = pivot * conductance[:-1], pivot * conductance[1:]
+    face = np.cumprod(inward[::-1])[::-1]
+    interior = face.copy()
+    for i in range(1, n):
+        interior[i] += outward[i] * interior[i - 1]
+    through = conductance[0] * interior[0]
+    gains = np.array([conductance[0] * inner[0] * pivot[0], through, through, through + rate @ interior])
+    stiff, at_face = step * around > STIFF * grid.capacity, np.isin(np.arange(n), [0, n - 1])
+    reach = np.where(stiff & at_face, 1.0 + rate / around, 0.0)
+    return Cells(
+        np.append(gains, conductance[0]),
+        np.stack([rate * pivot, inward, rate * interior, outward, face, reach], axis=1),
     )
-    return Cells(rate, conductance, pivot, influence, exchange, stiff, lag)
-
-
-def _solve(source: FloatArray, conductance: FloatArray, pivot: FloatArray) -> FloatArray:
-    """Solution of the cells' system for one source (n,) [W m-2], by the stored elimination."""
-    n = source.size
-    solution = np.zeros(n)
-    for i in range(n):
-        above = conductance[i] * solution[i - 1] if i > 0 else 0.0
-        solution[i] = (source[i] + above) * pivot[i]
-    for i in range(n - 2, -1, -1):
-        solution[i] += conductance[i + 1] * pivot[i] * solution[i + 1]
-    return solution

@@ -146,7 +146,8 @@ def outside_of(
     them need. Air has the pressure of the site's altitude; free convection that of the mean temperature.
     """
     pressure = pressure_at(environment.site.altitude)
-    film, free = np.zeros(exposure.irradiance.shape), np.zeros(exposure.normal.shape[0])
+    film, still = np.zeros(exposure.irradiance.shape), np.zeros(exposure.normal.shape[0])
+    free, colder = still, still
     if plan.has("forced_convection"):
         film = forced_film(
             exposure.normal,
@@ -158,8 +159,12 @@ def outside_of(
             air=air_at(environment.air_temperature, pressure),
         )
     if plan.has("free_convection"):
-        free = free_film_cubed(exposure.normal, air=air_at(float(environment.air_temperature.mean()), pressure))
-    return Outside(exposure.irradiance, exposure.longwave, film, free, environment.air_temperature, emissivity)
+        mean = air_at(float(environment.air_temperature.mean()), pressure)
+        free = free_film_cubed(exposure.normal, air=mean)
+        colder = free_film_cubed(exposure.normal, air=mean, warmer=False)
+    return Outside(
+        exposure.irradiance, exposure.longwave, film, free, environment.air_temperature, emissivity, free_colder=colder
+    )
 
 
 def _require_sky(sky: str) -> None:

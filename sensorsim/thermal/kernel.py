@@ -1,13 +1,10 @@
 """The inner loop, compiled: steps of many columns through one wall, in blocks of one lane each.
 
 A column is one orientation at one solar absorptance. A stage solves (C / (gamma dt) + K) T = rhs for the cells, linear
-and alike for all columns, condensed onto the faces; their balances are not linear: a 2 x 2 Newton iteration.
+and alike for all columns, condensed onto the faces, whose balances are not linear (see `balance`).
 
 Steps: two-stage, second-order, L-stable SDIRK with gamma = 1 - 1/sqrt(2) [Alexander1977]; inputs are linear between
-samples. No method of second order keeps every answer monotone [Bolley1978], and a thin metal skin would overshoot the
-sunrise: columns in which a stiff cell at a face runs past the temperature that it is drawn to, or any leaves the range
-that boundaries and past allow, take that step by backward Euler, which can do neither.
-Saturation pressure over water is the polynomial of [Lowe1977], which vectorises where an exponential does not.
+samples. Columns that overshoot take that step by backward Euler, which cannot (see `damping`).
 """
 
 import numpy as np
@@ -16,20 +13,51 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Work
+from sensorsim.thermal.balance import Room, balance
+from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside
+from sensorsim.thermal.damping import CARRY, GAMMA, bound, calls_for_damping, go_back, join
+from sensorsim.thermal.lanes import (
+    ABSORBED,
+    ABSORPTANCE,
+    ALL,
+    CELL,
+    EXCHANGE,
+    EXTERIOR,
+    FILM_CUBED,
+    FIRST,
+    FLUX,
+    FORCED,
+    HEAT,
+    INTERIOR,
+    INTERIOR_FLUX,
+    INTERIOR_HEAT,
+    INTERIOR_RISE,
+    INTERIOR_START,
+    LANES,
+    LATER,
+    LEFT,
+    LOAD,
+    LONGWAVE,
+    MARK,
+    MOVED,
+    NOW,
+    RIGHT,
+    RISE,
+    SENT,
+    STAGE,
+    START,
+    SUN,
+    UNBOUNDED,
+    Index,
+    give,
+    inner,
+    take,
+)
 
-GAMMA = 1.0 - np.sqrt(0.5)
-CARRY = (1.0 - GAMMA) / GAMMA  # weight of the first stage's change in the second stage's right side
-TURN = 1e-7  # [K] overshoot that is left alone
-ABSORBED, FILM_CUBED, FREE, AIR, EXCHANGE, VAPOUR, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, MARK = range(12)  # rows
-LANES = 32
-ITERATION_LIMIT = 100
-TOLERANCE = 1e-8  # [K] last move; Newton squares it
-LEAST_FILM = 1e-3  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
-COLDEST_WATER = -100.0  # [C] below which the saturation polynomial is held
+CHUNK = 64  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
+AIR, VAPOUR, ROOM_AIR, ROOM_RADIANT, ROOM_FILM = range(5)  # of what all columns share
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
 def advance(
     columns: Columns, cells: Cells, damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float
 ) -> int:
@@ -37,264 +65,166 @@ def advance(
 
     `cells` is the wall factored for gamma `step`, `damped` for `step`.
     """
-    n, m = columns.cells.shape
-    failures, block, pair = 0, (n, LANES), (2, LANES)
-    work = Work(
-        np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros(block), np.zeros((12, LANES)),
-        np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros(pair), np.zeros((6, LANES)),
-    )  # fmt: skip
-    lane, absorptance = np.zeros(LANES, dtype=np.int64), np.zeros(LANES)
-    for begin in range(0, m, LANES):
-        _take(columns, work, lane, absorptance, begin)
-        heat = np.zeros((2, LANES))
-        for k in range(first, last):
-            failures += _step(work, lane, absorptance, cells, damped, outside, inside, k)
-            heat += step * work.flux[:2]
-        _give(columns, work, heat, begin)
+    w, c = np.zeros(int(ALL)), np.zeros((cells.factors.shape[0] + 2) * int(CELL))  # beyond either end an idle cell
+    lane = np.zeros(LANES, dtype=Index)  # made out here, so that the compiled code does not know how many
+    return int(_advance(w, c, lane, columns, cells, damped, outside, inside, first, last, step))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _advance(
+    w: FloatArray, c: FloatArray, lane: NDArray[Index], columns: Columns, cells: Cells, damped: Cells,
+    outside: Outside, inside: Inside, first: int, last: int, step: float,
+) -> int:  # fmt: skip
+    """Steps of all blocks in turn, a chunk at a time."""
+    lanes, shared, failures = Index(lane.size), np.zeros((2, 5)), 0
+    for start in range(first, last, CHUNK):
+        stop = min(start + CHUNK, last)
+        for begin in range(0, columns.orientation.size, lane.size):
+            take(lanes, w, c, lane, columns, outside.free, outside.free_colder, begin)
+            sample(lanes, w, lane, outside, start)
+            for k in range(start, stop):
+                sample(lanes, w, lane, outside, k + 1)
+                share(shared, outside, inside, k)
+                failures += _step(lanes, w, c, shared, cells, damped, outside, inside, step)
+            give(lanes, w, c, columns, begin)
     return failures
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _take(columns: Columns, work: Work, lane: NDArray[np.int64], absorptance: FloatArray, begin: int) -> None:
-    """Columns into lanes; lanes beyond the last column repeat it."""
-    n, m = columns.cells.shape
-    for j in range(LANES):
-        c = min(begin + j, m - 1)
-        lane[j], absorptance[j] = columns.orientation[c], columns.absorptance[c]
-        for i in range(n):
-            work.now[i, j] = columns.cells[i, c]
-        for face in range(2):
-            work.faces[face, j], work.films[face, j] = columns.faces[face, c], columns.films[face, c]
+@inner
+def sample(lanes: Index, w: FloatArray, lane: NDArray[Index], outside: Outside, k: int) -> None:
+    """The second sample of the last step becomes the first of the next, k its second; all lanes start from its end."""
+    irradiance, longwave, film, emissivity = outside.irradiance, outside.longwave, outside.film, outside.emissivity
+    for j in range(lanes):
+        w[MARK + j], w[START + j], w[INTERIOR_START + j] = 1.0, w[EXTERIOR + j], w[INTERIOR + j]
+    for j in range(LATER):
+        w[ABSORBED + j] = w[LATER + ABSORBED + j]
+    for j in range(lanes):
+        o = lane[j]
+        sun, sky = irradiance[k, o], longwave[k, o]
+        w[LATER + SUN + j], w[LATER + LONGWAVE + j], w[LATER + FORCED + j] = sun, sky, film[k, o]
+        w[LATER + ABSORBED + j] = w[ABSORPTANCE + j] * sun + emissivity * sky
+    if outside.latent.shape[0] > 1:
+        for j in range(lanes):
+            w[LATER + EXCHANGE + j] = outside.latent[k, lane[j]]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _give(columns: Columns, work: Work, heat: FloatArray, begin: int) -> None:
-    """Lanes back into columns."""
-    n, m = columns.cells.shape
-    for j in range(min(LANES, m - begin)):
-        for i in range(n):
-            columns.cells[i, begin + j] = work.now[i, j]
-        for face in range(2):
-            columns.faces[face, begin + j], columns.films[face, begin + j] = work.faces[face, j], work.films[face, j]
-            columns.heat[face, begin + j] += heat[face, j]
+@inner
+def share(shared: FloatArray, outside: Outside, inside: Inside, k: int) -> None:
+    """What all columns have in common at both samples of step k."""
+    for row in range(2):
+        shared[row, AIR], shared[row, VAPOUR] = outside.air[k + row] - ZERO_CELSIUS, outside.vapour[k + row]
+        shared[row, ROOM_AIR], shared[row, ROOM_FILM] = inside.air[k + row] - ZERO_CELSIUS, inside.film[k + row]
+        shared[row, ROOM_RADIANT] = inside.radiant[k + row]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner
 def _step(
-    work: Work, lane: NDArray[np.int64], absorptance: FloatArray, cells: Cells, damped: Cells, outside: Outside,
-    inside: Inside, k: int,
+    lanes: Index, w: FloatArray, c: FloatArray, shared: FloatArray, cells: Cells, damped: Cells, outside: Outside,
+    inside: Inside, step: float,
 ) -> int:  # fmt: skip
     """One step of one block: two stages and, where lanes call for it, backward Euler; returns failed balances."""
-    n, failures, solves, wet = work.now.shape[0], 0, 2, outside.latent.shape[0] > 1
-    work.ends[:] = work.faces
-    for solve in range(3):
-        if solve == 2:
-            if not _calls_for_damping(work, lane, cells, outside, inside, k):
-                break
-            solves = 3
-            work.kept[:] = work.cells
-            work.trial[:] = work.ends
-            work.held[:] = work.films
-            work.ends[:] = work.faces
-        for i in range(n):
-            for j in range(LANES):
-                change = work.cells[i, j] - work.now[i, j]
-                work.first[i, j] = change if solve == 1 else work.first[i, j]
-                work.star[i, j] = work.now[i, j] + (CARRY * change if solve == 1 else 0.0)
-        at = GAMMA if solve == 0 else 1.0
-        _load(work.load, lane, absorptance, outside, k, at)
-        wall = damped if solve == 2 else cells
-        failures += _solve(work, wall, outside.emissivity, inside, k, at, wet, 2 * solve)
-    _finish(work, solves == 3)
+    wet, low, high = outside.latent.shape[0] > 1, UNBOUNDED, -UNBOUNDED
+    surfaces = (outside.emissivity * SIGMA, inside.emissivity * SIGMA, inside.free)
+    failures = _stage(lanes, w, c, shared, surfaces, cells, wet, GAMMA, 0.0, 1.0 - GAMMA)
+    failures += _stage(lanes, w, c, shared, surfaces, cells, wet, 1.0, CARRY, GAMMA)
+    for row in range(2):
+        air, room, radiant = shared[row, AIR], shared[row, ROOM_AIR], shared[row, ROOM_RADIANT] - ZERO_CELSIUS
+        low, high = min(low, air, room, radiant), max(high, air, room, radiant)
+    bound(lanes, w, low, high)
+    if calls_for_damping(lanes, w, c, cells.factors, wet):
+        go_back(lanes, w, c)
+        failures += _stage(lanes, w, c, shared, surfaces, damped, wet, 1.0, 0.0, 1.0)
+        join(lanes, w, c)
+    settle(lanes, w, step)
     return failures
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _finish(work: Work, damped: bool) -> None:
-    """The step's outcome, of the lanes that are marked by backward Euler, into `now`, `faces` and the first fluxes."""
-    for face in range(2):
-        for j in range(LANES):
-            again = damped and work.load[MARK, j] > 0.0
-            late = (1.0 - GAMMA) * work.flux[face, j] + GAMMA * work.flux[2 + face, j]
-            work.flux[face, j] = work.flux[4 + face, j] if again else late
-            work.faces[face, j] = work.trial[face, j] if damped and not again else work.ends[face, j]
-            work.films[face, j] = work.held[face, j] if damped and not again else work.films[face, j]
-    if damped:
-        for i in range(work.now.shape[0]):
-            for j in range(LANES):
-                work.now[i, j] = work.cells[i, j] if work.load[MARK, j] > 0.0 else work.kept[i, j]
-    else:
-        work.now[:] = work.cells
+@inner
+def settle(lanes: Index, w: FloatArray, step: float) -> None:
+    """End of a step: heat that has entered, and how far the faces went."""
+    for j in range(lanes):
+        w[HEAT + j] += step * w[FLUX + j]
+        w[INTERIOR_HEAT + j] += step * w[INTERIOR_FLUX + j]
+        w[RISE + j], w[INTERIOR_RISE + j] = w[EXTERIOR + j] - w[START + j], w[INTERIOR + j] - w[INTERIOR_START + j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _load(
-    load: FloatArray, lane: NDArray[np.int64], absorptance: FloatArray, outside: Outside, k: int, at: float
-) -> None:
-    """What acts on the exterior face at a fraction of step k."""
+@inner
+def load(lanes: Index, w: FloatArray, at: float, guess: float) -> None:
+    """What acts on the exterior face at a fraction `at` of the step; faces go on by `guess` of their last rise."""
     rest = 1.0 - at
-    air = rest * outside.air[k] + at * outside.air[k + 1] - ZERO_CELSIUS
-    for j in range(LANES):
-        o = lane[j]
-        sun = rest * outside.irradiance[k, o] + at * outside.irradiance[k + 1, o]
-        sky = rest * outside.longwave[k, o] + at * outside.longwave[k + 1, o]
-        film = rest * outside.film[k, o] + at * outside.film[k + 1, o]
-        load[ABSORBED, j] = absorptance[j] * sun + outside.emissivity * sky
-        load[FILM_CUBED, j] = film * film * film
-        load[FREE, j] = outside.free[o]
-        load[AIR, j] = air
-    if outside.latent.shape[0] > 1:
-        for j in range(LANES):
-            o = lane[j]
-            load[EXCHANGE, j] = rest * outside.latent[k, o] + at * outside.latent[k + 1, o]
-            load[VAPOUR, j] = rest * outside.vapour[k] + at * outside.vapour[k + 1]
+    for j in range(lanes):
+        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
+        w[FILM_CUBED + j], w[MOVED + j] = forced * forced * forced, UNBOUNDED * w[MARK + j]
+        w[LOAD + j] = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j]
+        w[EXTERIOR + j] += guess * w[MARK + j] * w[RISE + j]
+        w[INTERIOR + j] += guess * w[MARK + j] * w[INTERIOR_RISE + j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _calls_for_damping(
-    work: Work, lane: NDArray[np.int64], cells: Cells, outside: Outside, inside: Inside, k: int
-) -> bool:
-    """Mark the lanes that call for it: a stiff cell passed the temperature it was drawn to, or left its bounds."""
-    _bound(work, lane, outside, inside, k)
-    least, most, mark = work.load[LEFT], work.load[RIGHT], work.load[MARK]
-    mark[:] = 0.0
-    n = work.now.shape[0]
-    for i in range(n):
-        reach = 1.0 + cells.lag[i] if cells.stiff[i] and (i == 0 or i == n - 1) else 1e9
-        for j in range(LANES):
-            first, second = work.first[i, j], work.cells[i, j] - work.star[i, j]
-            beyond = work.cells[i, j] - work.now[i, j] - reach * first  # past the balance of the first stage
-            passed = first * second < 0.0 and beyond * first > 0.0 and abs(beyond) > TURN
-            left = work.cells[i, j] < least[j] or work.cells[i, j] > most[j]
-            mark[j] = 1.0 if passed or left else mark[j]
-    return bool(mark.max() > 0.0)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _bound(work: Work, lane: NDArray[np.int64], outside: Outside, inside: Inside, k: int) -> None:
-    """Range that the maximum principle leaves for a step: past, air, radiant surroundings; sun lifts the upper end."""
-    low = min(outside.air[k], outside.air[k + 1], inside.air[k], inside.air[k + 1])
-    high = max(outside.air[k], outside.air[k + 1], inside.air[k], inside.air[k + 1])
-    low = min(low, inside.radiant[k], inside.radiant[k + 1]) - ZERO_CELSIUS
-    high = max(high, inside.radiant[k], inside.radiant[k + 1]) - ZERO_CELSIUS
-    least, most, wet = work.load[LEFT], work.load[RIGHT], outside.latent.shape[0] > 1
-    for j in range(LANES):
-        o = lane[j]
-        sky, later = outside.longwave[k, o], outside.longwave[k + 1, o]
-        coldest = np.sqrt(np.sqrt(min(sky, later) / SIGMA)) - ZERO_CELSIUS
-        warmest = np.sqrt(np.sqrt(max(sky, later) / SIGMA)) - ZERO_CELSIUS
-        sunlit = outside.irradiance[k, o] + outside.irradiance[k + 1, o] > 0.0
-        least[j] = -1e9 if wet else min(low, coldest, work.faces[0, j], work.faces[1, j])
-        most[j] = 1e9 if wet or sunlit else max(high, warmest, work.faces[0, j], work.faces[1, j])
-    for i in range(work.now.shape[0]):
-        for j in range(LANES):
-            least[j], most[j] = min(least[j], work.now[i, j]), max(most[j], work.now[i, j])
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _solve(work: Work, wall: Cells, emissivity: float, inside: Inside, k: int, at: float, wet: bool, row: int) -> int:
-    """Solve a stage from its right side `star` into `cells` and `ends`; fluxes go to `row`; returns failed balances."""
-    n, load, ends, a = work.now.shape[0], work.load, work.ends, wall.exchange
-    _sweep(work.cells, work.star, wall)
-    for j in range(LANES):
-        load[LEFT, j] = wall.conductance[0] * work.cells[0, j] if n > 0 else 0.0
-        load[RIGHT, j] = wall.conductance[n] * work.cells[n - 1, j] if n > 0 else 0.0
+@inner
+def room_at(shared: FloatArray, at: float, free: float, grey: float) -> Room:
+    """What acts on the interior face at a fraction of the step."""
     rest = 1.0 - at
-    radiant = rest * inside.radiant[k] + at * inside.radiant[k + 1]
-    air = rest * inside.air[k] + at * inside.air[k + 1] - ZERO_CELSIUS
-    film = rest * inside.film[k] + at * inside.film[k + 1]
-    room = (air, inside.emissivity * SIGMA * radiant**4, film**3, inside.free, inside.emissivity * SIGMA)
-    failures = _balance(work, a, emissivity * SIGMA, room, wet)
-    for j in range(LANES):
-        work.flux[row, j] = a[0, 0] * ends[0, j] - a[0, 1] * ends[1, j] - load[LEFT, j]
-        work.flux[row + 1, j] = a[1, 1] * ends[1, j] - a[1, 0] * ends[0, j] - load[RIGHT, j]
-    for i in range(n):
-        for j in range(LANES):
-            work.cells[i, j] += wall.influence[0, i] * ends[0, j] + wall.influence[1, i] * ends[1, j]
-    return failures
+    air, film = (
+        rest * shared[0, ROOM_AIR] + at * shared[1, ROOM_AIR],
+        rest * shared[0, ROOM_FILM] + at * shared[1, ROOM_FILM],
+    )
+    radiant = rest * shared[0, ROOM_RADIANT] + at * shared[1, ROOM_RADIANT]
+    return (air, grey * radiant * radiant * radiant * radiant, film * film * film, free, grey)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _sweep(cells: FloatArray, star: FloatArray, wall: Cells) -> None:
-    """Solve the cells for faces at 0 C."""
-    n = cells.shape[0]
-    for i in range(n):
-        rate, pivot = wall.rate[i] * wall.pivot[i], wall.pivot[i] * wall.conductance[i]
-        for j in range(LANES):
-            cells[i, j] = rate * star[i, j]
-        if i > 0:
-            for j in range(LANES):
-                cells[i, j] += pivot * cells[i - 1, j]
-    for i in range(n - 2, -1, -1):
-        back = wall.conductance[i + 1] * wall.pivot[i]
-        for j in range(LANES):
-            cells[i, j] += back * cells[i + 1, j]
+@inner
+def _stage(
+    lanes: Index, w: FloatArray, c: FloatArray, shared: FloatArray, surfaces: tuple[float, float, float],
+    wall: Cells, wet: bool, at: float, carry: float, weight: float,
+) -> int:  # fmt: skip
+    """Solve a stage at a fraction `at` of the step for the lanes that are marked; returns failed balances.
 
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _balance(
-    work: Work, exchange: FloatArray, grey: float, room: tuple[float, float, float, float, float], wet: bool
-) -> int:
-    """Newton iteration of both faces; returns how many lanes did not converge."""
-    moving = 0
-    work.load[MOVED] = 1.0
-    for _ in range(ITERATION_LIMIT):
-        if wet:
-            _evaporate(work.load, work.ends)
-        _approach(work.load, work.ends, work.films, exchange, grey, room)
-        moving = 0
-        for j in range(LANES):
-            moving += 0 if work.load[MOVED, j] <= TOLERANCE else 1
-        if moving == 0:
-            break
+    A second stage goes on from the first by `carry`, and its flux, which counts by `weight`, adds to the first one's.
+    """
+    rest, grey, room_grey = 1.0 - at, surfaces[0], surfaces[1]
+    air, vapour = rest * shared[0, AIR] + at * shared[1, AIR], rest * shared[0, VAPOUR] + at * shared[1, VAPOUR]
+    load(lanes, w, at, 1.0 - GAMMA if carry > 0.0 else at)
+    _eliminate(lanes, w, c, wall.factors, wall.exchange[4], carry)
+    room = room_at(shared, at, surfaces[2], room_grey)
+    moving = balance(lanes, w, wall.exchange, grey, air, vapour, room, wet, at)
+    _substitute(lanes, w, c, wall.exchange, wall.factors, 0.0 if carry == 0.0 else 1.0, weight)
     return moving
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _approach(
-    load: FloatArray, ends: FloatArray, films: FloatArray, exchange: FloatArray, grey: float,
-    room: tuple[float, float, float, float, float],
-) -> None:  # fmt: skip
-    """One Newton step of both faces, in one loop over the lanes, because that is what vectorises."""
-    a, b, c, d = exchange[0, 0], exchange[0, 1], exchange[1, 0], exchange[1, 1]
-    air, radiation, cubed, free, grey_inside = room
-    third = 1.0 / 3.0
-    for j in range(LANES):
-        ext, inn, h, h_inside = ends[0, j], ends[1, j], films[0, j], films[1, j]
-        gap, gap_inside = load[AIR, j] - ext, air - inn
-        inverse, inverse_inside = 1.0 / (h * h), 1.0 / (h_inside * h_inside)
-        lift, lift_inside = load[FREE, j] * abs(gap) * inverse, free * abs(gap_inside) * inverse_inside
-        h = max((2.0 * h + load[FILM_CUBED, j] * inverse + lift) * third, LEAST_FILM)
-        h_inside = max((2.0 * h_inside + cubed * inverse_inside + lift_inside) * third, LEAST_FILM)
-        total = h if load[FILM_CUBED, j] + load[FREE, j] > 0.0 else 0.0
-        total_inside = h_inside if cubed + free > 0.0 else 0.0
-        kelvin, kelvin_inside = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
-        cube = grey * kelvin * kelvin * kelvin
-        cube_inside = grey_inside * kelvin_inside * kelvin_inside * kelvin_inside
-        lack = load[ABSORBED, j] + total * gap - cube * kelvin - load[LATENT, j] - a * ext + b * inn + load[LEFT, j]
-        lack_inside = radiation + total_inside * gap_inside - cube_inside * kelvin_inside
-        lack_inside += c * ext - d * inn + load[RIGHT, j]
-        slope = a + total + lift * third + 4.0 * cube + load[LATENT_SLOPE, j]
-        slope_inside = d + total_inside + lift_inside * third + 4.0 * cube_inside
-        scale = 1.0 / (slope * slope_inside - b * c)
-        move = (lack * slope_inside + b * lack_inside) * scale
-        move_inside = (lack_inside * slope + c * lack) * scale
-        moves = load[MOVED, j] > TOLERANCE  # a lane that has settled does not know whether its neighbours have
-        films[0, j] = h if moves else films[0, j]
-        films[1, j] = h_inside if moves else films[1, j]
-        ends[0, j] = max(ext + move, -ZERO_CELSIUS) if moves else ext
-        ends[1, j] = max(inn + move_inside, -ZERO_CELSIUS) if moves else inn
-        load[MOVED, j] = abs(move) + abs(move_inside) if moves else load[MOVED, j]
+@inner
+def _eliminate(lanes: Index, w: FloatArray, c: FloatArray, factors: FloatArray, outermost: float, carry: float) -> None:
+    """Elimination of the cells, innermost first, for faces at 0 C, and what the cells then send to the faces."""
+    at = Index(c.size) - CELL  # its loops touch c alone: on a way backwards the compiler could not tell it from w
+    for i in range(factors.shape[0] - 1, -1, -1):
+        at -= CELL
+        own, inward, sent = factors[i, 0], factors[i, 1], factors[i, 2]
+        if carry == 0.0:
+            for j in range(lanes):
+                star = c[at + STAGE + j]
+                c[at + NOW + j], c[at + SENT + j] = star, c[at + CELL + SENT + j] + sent * star
+                c[at + STAGE + j] = own * star + inward * c[at + CELL + STAGE + j]
+        else:
+            for j in range(lanes):
+                star = c[at + NOW + j] + carry * (c[at + STAGE + j] - c[at + NOW + j])
+                c[at + FIRST + j], c[at + SENT + j] = c[at + STAGE + j], c[at + CELL + SENT + j] + sent * star
+                c[at + STAGE + j] = own * star + inward * c[at + CELL + STAGE + j]
+    for j in range(lanes):
+        w[LEFT + j], w[RIGHT + j] = outermost * c[at + STAGE + j], c[at + SENT + j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _evaporate(load: FloatArray, ends: FloatArray) -> None:
-    """Latent heat that leaves a wet face and its slope, by the saturation pressure of [Lowe1977]."""
-    for j in range(LANES):
-        t = max(ends[0, j], COLDEST_WATER)
-        high = 3.031240396e-4 + t * (2.034080948e-6 + t * 6.136820929e-9)
-        pressure = 610.7799961 + t * (44.36518521 + t * (1.428945805 + t * (2.650648471e-2 + t * high)))
-        high = 4.0 * 3.031240396e-4 + t * (5.0 * 2.034080948e-6 + t * 6.0 * 6.136820929e-9)
-        rise = 44.36518521 + t * (2.0 * 1.428945805 + t * (3.0 * 2.650648471e-2 + t * high))
-        load[LATENT, j] = load[EXCHANGE, j] * (pressure - load[VAPOUR, j])
-        load[LATENT_SLOPE, j] = load[EXCHANGE, j] * max(rise, 0.0)
+@inner
+def _substitute(
+    lanes: Index, w: FloatArray, c: FloatArray, exchange: FloatArray, factors: FloatArray, keep: float, weight: float
+) -> None:
+    """Flux through the faces, `keep` of what it was and `weight` of this; back substitution of the cells."""
+    for j in range(lanes):
+        ext, inn, marked = w[EXTERIOR + j], w[INTERIOR + j], w[MARK + j] > 0.0
+        flux = keep * w[FLUX + j] + weight * (exchange[0] * ext - exchange[1] * inn - w[LEFT + j])
+        flux_inside = keep * w[INTERIOR_FLUX + j] + weight * (exchange[3] * inn - exchange[2] * ext - w[RIGHT + j])
+        w[FLUX + j] = flux if marked else w[FLUX + j]
+        w[INTERIOR_FLUX + j] = flux_inside if marked else w[INTERIOR_FLUX + j]
+        c[STAGE + j] = ext
+    for i in range(factors.shape[0]):
+        at, outward, face = Index(i + 1) * CELL, factors[i, 3], factors[i, 4]
+        for j in range(lanes):
+            c[at + STAGE + j] += outward * c[at - CELL + STAGE + j] + face * w[INTERIOR + j]

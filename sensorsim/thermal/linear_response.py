@@ -23,8 +23,10 @@ LEAST_SLOPE = 1e-3  # [W m-2 K-1] in perfectly still air between black bodies of
 def exterior_slope(outside: Outside, temperature: FloatArray) -> FloatArray:
     """Heat (t, o) that an exterior face loses per kelvin of its own [W m-2 K-1] about temperatures (t, o) [K]."""
     difference = np.abs(temperature - outside.air[:, None])
-    film = np.maximum(np.cbrt(outside.film**3 + outside.free * difference), LEAST_SLOPE)
-    slope = film + outside.free * difference / (3.0 * film**2)
+    colder = outside.free_colder if outside.free_colder.size else outside.free
+    free = difference * np.where(temperature >= outside.air[:, None], outside.free, colder)
+    film = np.maximum(np.cbrt(outside.film**3 + free), LEAST_SLOPE)
+    slope = film + free / (3.0 * film**2)
     slope += 4.0 * outside.emissivity * STEFAN_BOLTZMANN_CONSTANT * temperature**3
     if outside.latent.shape[0] > 1:
         rise = saturation_vapour_pressure(temperature + 0.5) - saturation_vapour_pressure(temperature - 0.5)

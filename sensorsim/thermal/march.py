@@ -10,8 +10,10 @@ from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
 from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
-from sensorsim.thermal.kernel import GAMMA, advance
+from sensorsim.thermal.kernel import advance
+from sensorsim.thermal.melting import Thaw, advance_melting, latent_heat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +26,8 @@ class History:
     nodes: FloatArray | None  # (r, n, o, a) cell temperatures [K], where asked for
     heat: FloatArray  # (2, o, a) heat that entered through the exterior and the interior face, first to last [J m-2]
     stored: FloatArray  # (o, a) heat stored from the first sample to the last [J m-2]
-    melted: FloatArray  # (o, a) heat that went into melting [J m-2]; `heat` sums to `stored` and this
+    melted: FloatArray  # (o, a) heat that melting has taken up, less freezing; `heat` sums to `stored` and this [J m-2]
+    drained: FloatArray  # (o, a) part of `melted` that came to snow which had all melted, and ran off [J m-2]
     grid: WallGrid
 
 
@@ -40,6 +43,7 @@ def march(
     grid: WallGrid | None = None,
     start: FloatArray | None = None,
     melting_depth: float = 0.0,
+    drains: bool = True,
 ) -> History:
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
@@ -48,26 +52,23 @@ def march(
     inside of a curved `grid` is given per its own area, as elsewhere; heats come per exterior area. A solid one has no
     inside: its innermost cell stands for the interior face.
 
-    Snow down to `melting_depth` [m] melts rather than warm: after each step its cells are set back to 0 C, and the heat
-    taken from them is counted. Within the step its face gets above 0 C by some kelvin at most and loses more heat
-    than melting snow would, so that up to a fifth of the melt in full sun is missed; meltwater does not freeze again.
+    What lies down to `melting_depth` [m] is snow, or ice where its water does not drain (see `melting`): it melts and
+    freezes at 0 C; ice that starts warmer is water. Steps of such a wall are of first order.
     """
     grid = build_grid(layers, step) if grid is None else grid
-    cells, damped = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    latent = latent_heat(layers, grid, melting_depth)
     outside, inside = _plain_outside(outside), _plain_inside(inside, grid)
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
     exterior, interior = np.zeros((record.size, *shape)), np.zeros((record.size, *shape))
     nodes = np.zeros((record.size, grid.capacity.size, *shape)) if keep_nodes else None
-    before = grid.capacity @ columns.cells
-    melting = grid.capacity * (grid.depth < melting_depth)
-    melted, sample = np.zeros(columns.cells.shape[1]), 0
-    for row, wanted in enumerate(record):
-        stops = range(sample + 1, int(wanted) + 1) if np.any(melting) else (int(wanted),)
-        for stop in stops:
-            _advance_to(stop, sample, columns, (cells, damped), outside, inside, step)
-            melted += _melt(columns, melting)
-            sample = stop
+    walls = factor(grid, GAMMA * step, step), factor(grid, step, step)
+    thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
+    before, taken, sample = grid.capacity @ columns.cells, _taken(columns, thaw), 0
+    held = taken.sum(axis=0)
+    for row, wanted in enumerate(map(int, record)):
+        _advance(wanted, sample, columns, taken, walls, thaw, outside, inside, step)
+        sample = wanted
         exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
         interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
         if nodes is not None:
@@ -79,7 +80,8 @@ def march(
         nodes=nodes,
         heat=columns.heat.reshape(2, *shape),
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
-        melted=melted.reshape(shape),
+        melted=(taken.sum(axis=0) - held).reshape(shape),
+        drained=taken[-1].reshape(shape),
         grid=grid,
     )
 
@@ -91,7 +93,8 @@ def _innermost(columns: Columns, grid: WallGrid) -> FloatArray:
 
 def _plain_outside(outside: Outside) -> Outside:
     vapour = outside.vapour if outside.vapour.size else np.zeros_like(outside.air)
-    return Outside(*(_plain(value) for value in outside._replace(vapour=vapour)))
+    colder = outside.free_colder if outside.free_colder.size else outside.free
+    return Outside(*(_plain(value) for value in outside._replace(vapour=vapour, free_colder=colder)))
 
 
 def _plain_inside(inside: Inside, grid: WallGrid) -> Inside:
@@ -103,23 +106,25 @@ def _plain(value: Any) -> Any:
     return np.require(value, np.float64, ["C", "W"]) if isinstance(value, np.ndarray) else float(value)
 
 
-def _advance_to(
-    last: int, first: int, columns: Columns, wall: tuple[Cells, Cells], outside: Outside, inside: Inside, step: float
-) -> None:
+def _taken(columns: Columns, thaw: Thaw) -> FloatArray:
+    """Latent heat (n + 1, m) [J m-2] that cells hold at the start: water of ice that is warmer than 0 C."""
+    taken = np.zeros((thaw.latent.size + 1, columns.orientation.size))
+    if not thaw.drains:
+        taken[:-1] = np.where(columns.cells > 0.0, thaw.latent[:, None], 0.0)
+    return taken
+
+
+def _advance(
+    last: int, first: int, columns: Columns, taken: FloatArray, walls: tuple[Cells, Cells], thaw: Thaw,
+    outside: Outside, inside: Inside, step: float,
+) -> None:  # fmt: skip
     """Columns from sample `first` to `last`, or NumericsError."""
-    failures = advance(columns, wall[0], wall[1], outside, inside, first, last, step)
+    if np.any(thaw.latent):
+        failures = advance_melting(columns, taken, thaw, outside, inside, first, last, step)
+    else:
+        failures = advance(columns, *walls, outside, inside, first, last, step)
     if failures or not np.all(np.isfinite(columns.faces)):
         raise NumericsError(f"heat balance of a wall did not converge between samples {first} and {last}")
-
-
-def _melt(columns: Columns, melting: FloatArray) -> FloatArray:
-    """Set cells of snow, with a capacity in `melting` (n,), back to 0 C; the heat (m,) [J m-2] that this takes."""
-    if not np.any(melting):
-        return np.zeros(columns.cells.shape[1])
-    above = np.where(melting[:, None] > 0.0, np.maximum(columns.cells, 0.0), 0.0)
-    columns.cells[:] -= above
-    columns.faces[0] = np.minimum(columns.faces[0], 0.0)
-    return np.asarray(melting @ above)
 
 
 def _start(
@@ -133,11 +138,10 @@ def _start(
     profile = line[1:-1] if start is None else start
     cells = profile if profile.ndim == 2 else np.repeat(profile[:, None], count, axis=1)
     ends = line[[0, -1], None] if start is None or start.size == 0 else cells[[0, -1]]
+    faces = np.broadcast_to(ends, (2, count)) - ZERO_CELSIUS
     return Columns(
-        cells=cells - ZERO_CELSIUS,
-        faces=np.broadcast_to(ends, (2, count)) - ZERO_CELSIUS,
-        films=np.full((2, count), 5.0),
-        heat=np.zeros((2, count)),
+        cells=np.array(cells - ZERO_CELSIUS),
+        carried=np.concatenate([faces, np.full((2, count), 5.0), np.zeros((4, count))]),
         orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),
         absorptance=np.tile(absorptances, outside.irradiance.shape[1]),
     )

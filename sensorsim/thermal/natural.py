@@ -54,12 +54,11 @@ def surface_boundary(
         length=wall.characteristic_length, plan=plan,
     )  # fmt: skip
     if cover is not None and cover.kind in AERODYNAMIC:
-        film = np.zeros(exposure.irradiance.shape)
+        film, still = np.zeros(exposure.irradiance.shape), np.zeros_like(outside.free)
         if plan.has("forced_convection"):
             film = aerodynamic_film(environment, cover)[:, None] * np.ones(exposure.normal.shape[0])
-        outside = outside._replace(
-            film=film, free=np.zeros_like(outside.free), irradiance=cover.interception * exposure.irradiance
-        )
+        sunlight = cover.interception * exposure.irradiance
+        outside = outside._replace(film=film, free=still, free_colder=still, irradiance=sunlight)
     if cover is not None and cover.traffic_heat > 0.0:
         heat = cover.traffic_heat * _by_day(environment) / wall.emissivity  # the balance takes this share of long waves
         outside = outside._replace(longwave=outside.longwave + heat[:, None])

@@ -132,5 +132,6 @@ def _join(fractions: Sequence[float], histories: Sequence[History]) -> History:
         heat=np.asarray(sum(share * history.heat for share, history in parts)),
         stored=np.asarray(sum(share * history.stored for share, history in parts)),
         melted=np.asarray(sum(share * history.melted for share, history in parts)),
+        drained=np.asarray(sum(share * history.drained for share, history in parts)),
         grid=histories[0].grid,
     )

@@ -172,6 +172,7 @@ def conditions(
         air=air,
         emissivity=surface.emissivity,
         vapour=np.zeros_like(air),
+        free_colder=np.zeros(1),
     )
     inside = Inside(
         air=at(boundary.interior_air_temperature),

@@ -13,8 +13,9 @@ from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, LayerLike, WallGrid, build_grid
-from sensorsim.thermal.kernel import GAMMA, advance
+from sensorsim.thermal.kernel import advance
 from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, conditions
 
 FACTORS_KEPT = 512
@@ -32,9 +33,7 @@ class WallSteps:
         self.grid, self.surface = grid, surface
         self.columns = Columns(
             cells=np.zeros((grid.capacity.size, 1)),
-            faces=np.zeros((2, 1)),
-            films=np.ones((2, 1)),
-            heat=np.zeros((2, 1)),
+            carried=np.array([[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0]]).T.copy(),
             orientation=np.zeros(1, dtype=np.int64),
             absorptance=np.array([surface.absorptance]),
         )
