@@ -3,7 +3,7 @@
 Measured once on one core of a server of 2024; `sensorsim study effects` measures them on the machine at hand.
 """
 
-PER_COLUMN_SAMPLE = 6e-4  # [ms] one wall type, orientation and reflectance, marched over one step
+PER_COLUMN_SAMPLE = 4e-4  # [ms] one wall type, orientation and reflectance, marched over one step
 PER_TERM_SAMPLE = 5e-6  # [ms] one term of the boundary at one orientation and sample
 PER_TERM_PIXEL = 2e-6  # [ms] one term of the radiance in one pixel
 
