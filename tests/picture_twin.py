@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.materials.gloss import load_gloss
 from sensorsim.radiometry import BandTable
 from sensorsim.render import Camera, Illumination, World
 from sensorsim.tables import surface_temperature
@@ -80,12 +81,25 @@ def temperatures(world: World, surface: NDArray[np.int64], time_of_day: float) -
 
 
 def emitted(
-    world: World, surface: NDArray[np.int64], time_of_day: float, light: Illumination, table: BandTable
-) -> FloatArray:
-    """Radiance [W m-2 sr-1] that leaves surfaces in an emissive band: own emission and reflected surroundings."""
-    emissivity = world.assignment.emissivity[surface]
-    sky_share = 0.5 * (1.0 + world.scene.surfaces.normal[surface, 2])
+    world: World, surface: NDArray[np.int64], time_of_day: float, light: Illumination, table: BandTable,
+    view: FloatArray,
+) -> FloatArray:  # fmt: skip
+    """Radiance [W m-2 sr-1] that leaves surfaces in an emissive band: own emission and reflected surroundings.
+
+    view (n, 3): unit directions from the sensor to the surfaces.
+    """
+    normal, made = world.scene.surfaces.normal[surface], world.assignment
+    emissivity = made.emissivity[surface]
+    sky_share = 0.5 * (1.0 + normal[:, 2])
     around = sky_share * light.sky_radiance + (1.0 - sky_share) * light.ground_radiance
+    codes = np.array([wall.code for wall in made.wall_types])[made.wall_type[surface]]
+    towards = np.sum(view * normal, axis=-1)
+    mirrored = view[:, 2] - 2.0 * towards * normal[:, 2]
+    for gloss, shown in zip(load_gloss(), light.mirror_table(), strict=True):
+        held = np.isin(codes, gloss.codes)
+        along = emissivity if gloss.normal_emissivity is None else np.full_like(emissivity, gloss.normal_emissivity)
+        emissivity = np.where(held, gloss.emissivity(along, -towards), emissivity)
+        around = np.where(held, np.interp(mirrored, np.linspace(-1.0, 1.0, shown.size), shown), around)
     own = table.radiance_at(temperatures(world, surface, time_of_day))
     return np.asarray(emissivity * own + (1.0 - emissivity) * around)
 
@@ -99,15 +113,25 @@ def reflected(world: World, surface: NDArray[np.int64], light: Illumination) -> 
     return np.asarray(world.assignment.nir_reflectance[surface] * (sun + sky + ground) / np.pi)
 
 
-def through_air(source: FloatArray, distance: FloatArray, light: Illumination) -> FloatArray:
-    """Radiance at the sensor [W m-2 sr-1] over distances [m], eq. 15 of the report."""
-    transmittance = np.exp(-light.attenuation * distance)
-    return np.asarray(transmittance * source + (1.0 - transmittance) * light.air_radiance)
+def through_air(
+    source: FloatArray, distance: FloatArray, camera: Camera, view: FloatArray, light: Illumination
+) -> FloatArray:
+    """Radiance at the sensor [W m-2 sr-1] over distances [m] along unit directions of view (..., 3)."""
+    height = float(camera.position[2])
+    return light.air.apparent_radiance(
+        source, distance, height, height + distance * view[..., 2], view @ light.sun_direction
+    )
 
 
 def background(camera: Camera, view: FloatArray, light: Illumination) -> FloatArray:
     """Radiance [W m-2 sr-1] where no surface is: the sky by elevation, and the ground plane through the air."""
-    sky = np.interp(view[..., 2], np.linspace(0.0, 1.0, light.sky.size), light.sky)
-    down = np.maximum(-view[..., 2], 1e-300)
-    ground = through_air(np.asarray(light.ground_radiance), max(camera.position[2], 0.0) / down, light)
+    sine = np.linspace(0.0, 1.0, light.sky.size)
+    sky = np.interp(view[..., 2], sine, light.sky)
+    if light.glow is not None:
+        cosine = np.linspace(-1.0, 1.0, light.glow.indicatrix.size)
+        around = np.interp(view @ light.sun_direction, cosine, light.glow.indicatrix)
+        sky = sky + np.interp(view[..., 2], sine, light.glow.gradation) * around
+    down = np.maximum(-view[..., 2], 1e-12)
+    distance = max(camera.position[2], 0.0) / down
+    ground = through_air(np.asarray(light.ground_radiance), distance, camera, view, light)
     return np.asarray(np.where(view[..., 2] >= 0.0, sky, ground))

@@ -60,7 +60,7 @@ def test_transmittance_is_that_of_modtran() -> None:
     assert np.abs(path.at(distance * 1000.0) - expected).max() <= 0.02
 
 
-@pytest.mark.parametrize("band", ["FLIR", "LLLTV"])
+@pytest.mark.parametrize("band", ["FLIR", "MWIR", "LLLTV"])
 def test_single_coefficient_is_exact_at_one_kilometre_and_too_strong_beyond(band: str) -> None:
     path, alpha = band_transmittance(band, **WINTER), attenuation_coefficient(band, **WINTER)
     assert math.exp(-alpha * 1000.0) == pytest.approx(float(path.at(1000.0)), rel=1e-12)
@@ -68,7 +68,7 @@ def test_single_coefficient_is_exact_at_one_kilometre_and_too_strong_beyond(band
     assert math.exp(-alpha * 200.0) > float(path.at(200.0))
 
 
-@pytest.mark.parametrize("band", ["FLIR", "LLLTV"])
+@pytest.mark.parametrize("band", ["FLIR", "MWIR", "LLLTV"])
 def test_transmittance_starts_at_one_and_only_falls(band: str) -> None:
     found = band_transmittance(band, **WINTER).at(np.linspace(0.0, 30_000.0, 301))
     assert found[0] == pytest.approx(1.0, abs=1e-12)
@@ -76,7 +76,7 @@ def test_transmittance_starts_at_one_and_only_falls(band: str) -> None:
     assert found[-1] > 0.0
 
 
-@pytest.mark.parametrize("band", ["FLIR", "LLLTV"])
+@pytest.mark.parametrize("band", ["FLIR", "MWIR", "LLLTV"])
 @pytest.mark.parametrize(
     ("entry", "values"),
     [
@@ -119,6 +119,6 @@ def test_impossible_air_is_refused(entry: str, value: float) -> None:
 
 
 def test_unknown_band_is_refused() -> None:
-    for band in ("MWIR", "source"):
-        with pytest.raises(InputError, match="FLIR, LLLTV"):
+    for band in ("SWIR", "source"):
+        with pytest.raises(InputError, match="FLIR, MWIR, LLLTV"):
             attenuation_coefficient(band, **WINTER)

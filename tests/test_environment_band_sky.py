@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from sensorsim.constants import FIRST_RADIATION_CONSTANT, SECOND_RADIATION_CONSTANT
-from sensorsim.environment import CLOUD_TEMPERATURE_DEPRESSION, band_sky, clear_sky_emissivity, zenith_emissivity
+from sensorsim.constants import FIRST_RADIATION_CONSTANT, SECOND_RADIATION_CONSTANT, STEFAN_BOLTZMANN_CONSTANT
+from sensorsim.environment import (
+    CLOUD_TEMPERATURE_DEPRESSION,
+    band_sky,
+    clear_sky_emissivity,
+    sky_temperature,
+    zenith_emissivity,
+)
 
 FloatArray = NDArray[np.float64]
 WAVELENGTH = np.linspace(8e-6, 14e-6, 301)
@@ -36,7 +42,39 @@ def _apparent(elevation: FloatArray, air: float, vapour: float, cover: float) ->
 def test_clear_sky_looks_as_cold_as_lowtran_finds_it(air: float, vapour: float, expected: list[float]) -> None:
     found = _apparent(ELEVATION, air, vapour, 0.0)
     assert abs(found[0] - expected[0]) < 1.0
-    assert np.abs(found - expected).max() < 3.5
+    assert np.abs(found - expected).max() < 1.5
+
+
+# Air temperature [K], vapour pressure [Pa], and of LOWTRAN7 with rural haze of 23 km: temperature [K] of the black
+# hemisphere with the same irradiance in 8-14 um, and with the same irradiance at all wavelengths.
+HEMISPHERE = [
+    (299.7, 2630.0, 273.70, 287.20),
+    (294.2, 1900.0, 260.41, 279.29),
+    (287.2, 1206.0, 245.03, 269.08),
+    (288.15, 785.0, 235.46, 266.07),
+    (272.2, 440.0, 219.87, 251.22),
+]
+
+
+@pytest.mark.parametrize(("air", "vapour", "band", "broad"), HEMISPHERE, ids=["TRO", "MLS", "SAS", "US76", "MLW"])
+@pytest.mark.parametrize("cover", [0.0, 0.5, 1.0])
+def test_hemisphere_is_that_of_lowtran_and_of_the_heat_balance(
+    air: float, vapour: float, band: float, broad: float, cover: float
+) -> None:
+    """What the band leaves of the sky's heat is that of air which is nearly black outside of the window.
+
+    Expected: 1.5 K of LOWTRAN7 when clear; outside of 8-14 um 0.92 to 1 of a black body's, clear to overcast.
+    """
+    sine = (np.arange(2000) + 0.5) / 2000.0
+    sky = band_sky(np.degrees(np.arcsin(sine)), vapour_pressure=vapour, cloud_cover=cover)
+    warm, cold = _radiance(np.array(air)), _radiance(np.array(air - CLOUD_TEMPERATURE_DEPRESSION))
+    window = float(np.mean(2.0 * np.pi * sine * (sky.air * warm + sky.cloud * cold)))
+    heat = float(sky_temperature(np.array(air), np.array(vapour), np.array(cover)))
+    if cover == 0.0:
+        assert abs(np.interp(window / np.pi, _radiance(TEMPERATURE), TEMPERATURE) - band) < 1.5
+        assert abs(heat - broad) < 1.5
+    outside = (STEFAN_BOLTZMANN_CONSTANT * heat**4 - window) / (STEFAN_BOLTZMANN_CONSTANT * air**4 - np.pi * warm)
+    assert 0.92 < outside <= 1.0
 
 
 @pytest.mark.parametrize(("air", "vapour"), [(257.2, 140.0), (272.2, 440.0), (299.7, 2600.0)])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from small_world import town
 
+from sensorsim.environment import AirPath
 from sensorsim.render import Illumination, Renderer, World, look_at
 from sensorsim.render.illumination import SKY_ENTRIES
 from sensorsim.sensor import load_sensor
@@ -37,6 +38,19 @@ def _world(temperature: float, emissivity: float | None) -> World:
     return replace(world, tables=tables, assignment=assignment)
 
 
+def _air(radiance: float, attenuation: float) -> AirPath:
+    """Three terms that thin out with height, all of one radiance [W m-2 sr-1]."""
+    return AirPath(
+        weight=np.array([0.7, 0.23, 0.07]),
+        coefficient=attenuation * np.array([1.0, 4.0, 100.0]),
+        inverse_scale_height=np.array([1e-4, 5e-4, 2e-3]),
+        source=np.full(3, radiance),
+        source_decay=0.0,
+        beam_source=np.zeros(3),
+        asymmetry=0.65,
+    )
+
+
 def _surroundings(radiance: float, attenuation: float) -> Illumination:
     """Sky, ground and air all of one radiance [W m-2 sr-1]."""
     return Illumination(
@@ -45,8 +59,7 @@ def _surroundings(radiance: float, attenuation: float) -> Illumination:
         quadrant=np.zeros(4),
         sky=np.full(SKY_ENTRIES, radiance),
         ground_radiance=radiance,
-        air_radiance=radiance,
-        attenuation=attenuation,
+        air=_air(radiance, attenuation),
     )
 
 

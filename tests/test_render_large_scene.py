@@ -9,7 +9,7 @@ from small_world import DAY, SETTINGS, box, feature, write_town
 
 from sensorsim.environment import read_weather
 from sensorsim.render import Renderer, World, build_world, look_at, station_camera
-from sensorsim.render.surface_table import SURFACES_PER_ROW, surface_table
+from sensorsim.render.surface_table import SURFACE_TEXELS, SURFACES_PER_ROW, surface_table
 from sensorsim.scene import load_scene
 from sensorsim.sensor import load_sensor
 
@@ -69,9 +69,9 @@ def test_layers_of_ground_fifteen_centimetres_apart_never_show_through(estate: W
 def test_records_lie_in_rows_of_one_width(estate: World) -> None:
     surfaces = estate.scene.surfaces
     table = surface_table(surfaces.normal, surfaces.feature, estate.assignment, estate.tables.orientations)
-    assert table.shape == (2, 5 * SURFACES_PER_ROW, 4)
+    assert table.shape == (2, SURFACE_TEXELS * SURFACES_PER_ROW, 4)
     row = SURFACES_PER_ROW + 77
-    record = table[1, 5 * 77 : 5 * 78]
+    record = table[1, SURFACE_TEXELS * 77 : SURFACE_TEXELS * 78]
     np.testing.assert_allclose(record[0, :3], surfaces.normal[row], rtol=0.0, atol=1e-7)
     assert record[0, 3] == estate.assignment.wall_type[row]
     assert record[2, 3] == np.float32(estate.assignment.reflectance[row])

@@ -12,6 +12,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.study_accuracy import accuracy
 from sensorsim.cli.study_effects import effects as study_effects
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
@@ -29,6 +30,7 @@ app = typer.Typer(
 for command in (render, capture, gallery, diff, effects, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
+study.command("accuracy")(accuracy)
 study.command("effects")(study_effects)
 study.command("sensitivity")(sensitivity)
 study.command("stability")(stability)

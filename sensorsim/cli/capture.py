@@ -15,6 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from sensorsim.cli.options import (
     Backend,
+    Effects,
     Level,
     Preset,
     SceneName,
@@ -22,6 +23,7 @@ from sensorsim.cli.options import (
     find_weather,
     local_day,
     make_folder,
+    read_effects,
     read_moment,
     read_size,
 )
@@ -80,6 +82,7 @@ def capture(
     video_rate: Annotated[float, typer.Option(help="Pictures per second of the video.")] = 30.0,
     jobs: Annotated[int, typer.Option(help="Processes that draw side by side.")] = 1,
     preset: Preset = "standard",
+    effects: Effects = "auto",
     backend: Backend = "auto",
 ) -> None:
     """Render a sequence; run again, it goes on where it was cut off, without redoing what is whole."""
@@ -88,20 +91,27 @@ def capture(
     pixels = None if size is None else read_size(size)
     moment, place = read_moment(at), load_scene(scene, level=level)
     route = _route(place, path, rate, camera, moment, until, every)
-    with bake_progress("baking") as progress:
-        found = find_weather(weather, local_day(moment, place.site.utc_offset))
-        day = local_day(moment, found.site.utc_offset)
-        world = build_world(place, found, image_day=day, settings=bake_preset(preset), progress=progress)
-    shots = _shots(route, moment, world)
-    make_folder(out)
     names = tuple(name for name in planes.split(",") if name)
+    choice = read_effects(effects, names)
+    found = find_weather(weather, local_day(moment, place.site.utc_offset))
+    day = local_day(moment, found.site.utc_offset)
+    with bake_progress("baking") as progress:
+        worlds = [  # one for each sensor: what may be left out depends on its noise
+            build_world(
+                place, found, image_day=day, settings=bake_preset(preset), progress=progress, effects=choice,
+                sensor=device,
+            )
+            for device in devices
+        ]  # fmt: skip
+    shots = _shots(route, moment, worlds[0])
+    make_folder(out)
     options = SequenceOptions(folder=out, planes=names, plane_format=plane_format, suffix=f".{file_format}")
     work = [
         _Job(
             world=world, sensor=device, size=pixels, samples=samples if device.detector else 1, backend=backend,
             shots=shots, numbers=numbers, options=options,
         )
-        for device in devices
+        for world, device in zip(worlds, devices, strict=True)
         for numbers in blocks(len(shots))
     ]  # fmt: skip
     _draw_all(work, jobs, len(shots) * len(devices))

@@ -7,10 +7,25 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from sensorsim.cli.options import AsJson, Effects, Level, Preset, SceneName, find_weather, read_moment, read_size
+from sensorsim.cli.options import (
+    Aerosol,
+    AsJson,
+    Atmosphere,
+    Effects,
+    Level,
+    Preset,
+    SceneName,
+    Visibility,
+    find_weather,
+    local_day,
+    read_moment,
+    read_size,
+)
 from sensorsim.cli.render import read_camera
 from sensorsim.effects import NOT_MODELLED, Ledger, read_choice
+from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.render import survey_ledger, survey_scene
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, check_atmosphere
 from sensorsim.scene import load_scene
 from sensorsim.sensor import load_sensor
 from sensorsim.tables import preset as bake_preset
@@ -25,6 +40,9 @@ def effects(
     field_of_view: Annotated[float | None, typer.Option(help="Horizontal field of view [deg].")] = None,
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; the sensor's own if left out.")] = None,
     weather: Annotated[str | None, typer.Option(help="winter, summer, fall or a CSV file.")] = None,
+    atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
+    visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
+    aerosol: Aerosol = "rural",
     preset: Preset = "standard",
     effects: Effects = "auto",
     as_json: AsJson = False,
@@ -32,13 +50,15 @@ def effects(
     """Print the ledger of effects: on or off, bound, tolerance, reason and time saved; no wall is solved for it."""
     device, moment, choice = load_sensor(sensor), read_moment(at), read_choice(effects)
     place = load_scene(scene, level=level)
+    series = find_weather(weather, local_day(moment, place.site.utc_offset))
     survey = survey_scene(
-        place, find_weather(weather, moment.date()), image_day=moment.date(), settings=bake_preset(preset),
-        choice=choice, sensor=device,
+        place, series, image_day=local_day(moment, series.site.utc_offset), settings=bake_preset(preset),
+        visibility=1000.0 * visibility, aerosol=aerosol, choice=choice, sensor=device,
     )  # fmt: skip
-    seconds = moment.hour * 3600.0 + moment.minute * 60.0 + moment.second
-    view = read_camera(place, camera, field_of_view)
-    ledger = survey_ledger(survey, device, view, device.size if size is None else read_size(size), seconds)
+    midnight = survey.environment.image_start
+    seconds = ((moment if moment.tzinfo else moment.replace(tzinfo=midnight.tzinfo)) - midnight).total_seconds()
+    view, pixels = read_camera(place, camera, field_of_view), device.size if size is None else read_size(size)
+    ledger = survey_ledger(survey, device, view, pixels, seconds, atmosphere=check_atmosphere(atmosphere))
     if as_json:
         print(json.dumps({"effects": ledger.to_list(), "not_modelled": list(NOT_MODELLED)}, indent=2))  # noqa: T201
         return

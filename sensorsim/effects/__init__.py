@@ -5,15 +5,16 @@ them by the user's `EffectChoice`; the `EffectPlan` that comes out is what march
 `Ledger` says why.
 """
 
+from sensorsim.effects.air_bounds import AirBefore
 from sensorsim.effects.catalogue import EFFECTS, FRAME, NOT_MODELLED, SUNLIGHT, SURFACE, Effect
 from sensorsim.effects.choice import EffectChoice, applicable, read_choice
 from sensorsim.effects.costs import march_cost, term_cost
 from sensorsim.effects.face import Face, Limits, temperature_limits
 from sensorsim.effects.frame_bounds import (
     Look,
+    Mirrors,
     apparent_factor,
     emissive_bounds,
-    opacity,
     reflective_bounds,
     reflective_tolerance,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "QUARTERS",
     "SUNLIGHT",
     "SURFACE",
+    "AirBefore",
     "Bound",
     "Effect",
     "EffectChoice",
@@ -40,13 +42,13 @@ __all__ = [
     "LedgerRow",
     "Limits",
     "Look",
+    "Mirrors",
     "Situation",
     "apparent_factor",
     "applicable",
     "decide",
     "emissive_bounds",
     "march_cost",
-    "opacity",
     "read_choice",
     "reflective_bounds",
     "reflective_tolerance",

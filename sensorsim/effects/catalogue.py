@@ -49,6 +49,7 @@ EFFECTS = (
     _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
     _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
     _frame("reflected_sky", "sky and ground mirrored by surfaces", "no mirrored part", "emissive"),
+    _frame("specular", "mirrors: emissivity by angle, and what lies that way", "matt surfaces", "emissive"),
     _frame("reflected_sun", "sunlight in band from surfaces", _DARK, "reflective"),
     _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
 )  # fmt: skip

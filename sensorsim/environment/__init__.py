@@ -5,12 +5,14 @@ grid for the thermal model, and `Environment.at` gives the state at one moment f
 """
 
 from sensorsim.environment.air_mass import relative_air_mass
-from sensorsim.environment.atmosphere import Transmittance, attenuation_coefficient, band_transmittance
+from sensorsim.environment.air_path import AirPath, clear_path, right_angle_phase, single_term
+from sensorsim.environment.atmosphere import LAPSE_RATE, Transmittance, attenuation_coefficient, band_transmittance
 from sensorsim.environment.band_sky import BandSky, band_sky, clear_sky_emissivity, zenith_emissivity
 from sensorsim.environment.build import DEFAULT_VISIBILITY, build_environment, longest_lead_in
 from sensorsim.environment.environment import Environment
 from sensorsim.environment.ground import GROUND_ALBEDO, SNOW_MAXIMUM_TEMPERATURE, ground_albedo
 from sensorsim.environment.humidity import saturation_vapour_pressure, vapour_density, vapour_pressure
+from sensorsim.environment.moon import Moonlight, moonlight
 from sensorsim.environment.near_infrared import NearInfrared, near_infrared
 from sensorsim.environment.night import NIGHT_GLOW, twilight_irradiance
 from sensorsim.environment.perez_sky import (
@@ -29,6 +31,7 @@ from sensorsim.environment.quadrants import (
 )
 from sensorsim.environment.sample import EnvironmentSample
 from sensorsim.environment.site import Site
+from sensorsim.environment.sky_glow import SkyGlow, clear_glow, overcast_radiance
 from sensorsim.environment.sun import (
     Sunlight,
     SunPosition,
@@ -54,17 +57,21 @@ __all__ = [
     "DEFAULT_VISIBILITY",
     "GROUND_ALBEDO",
     "GROUND_STATES",
+    "LAPSE_RATE",
     "NIGHT_GLOW",
     "QUADRANT_AZIMUTH",
     "QUADRANT_NAMES",
     "QUADRANT_SOLID_ANGLE",
     "SNOW_MAXIMUM_TEMPERATURE",
+    "AirPath",
     "BandSky",
     "Environment",
     "EnvironmentSample",
+    "Moonlight",
     "NearInfrared",
     "Site",
     "SkyBrightness",
+    "SkyGlow",
     "SunPosition",
     "Sunlight",
     "Transmittance",
@@ -76,6 +83,8 @@ __all__ = [
     "check_place",
     "circumsolar_irradiance",
     "circumsolar_share",
+    "clear_glow",
+    "clear_path",
     "clear_sky_emissivity",
     "clear_sky_irradiance_dilley",
     "clear_sky_irradiance_prata",
@@ -84,14 +93,18 @@ __all__ = [
     "ground_albedo",
     "linke_turbidity",
     "longest_lead_in",
+    "moonlight",
     "near_infrared",
+    "overcast_radiance",
     "perez_irradiance",
     "place_mismatch",
     "quadrant_irradiance",
     "read_weather",
     "relative_air_mass",
     "resample_weather",
+    "right_angle_phase",
     "saturation_vapour_pressure",
+    "single_term",
     "sky_brightness",
     "sky_irradiance",
     "sky_temperature",

@@ -20,7 +20,11 @@ FloatArray = NDArray[np.float64]
 _VAPOUR_PRESSURE = np.array([140.0, 440.0, 780.0, 1200.0, 1900.0, 2600.0])
 _ZENITH_EMISSIVITY = np.array([0.219, 0.241, 0.269, 0.343, 0.432, 0.528])
 _GREATEST_ZENITH_EMISSIVITY = 0.95
-_AIR_MASS_EXPONENT = 0.65  # fitted to [LOWTRAN7]; the path is not grey, so less than 1
+# The path is not grey, so depth grows as a power of the air mass less than 1: this one high up, by zenith emissivity,
+# turning into that of the horizon with the square of ln m. The rest are fitted to the same atmospheres.
+_AIR_MASS_EXPONENT = np.array([0.525, 0.565, 0.608, 0.660, 0.700, 0.705])
+_HORIZON_EXPONENT = 0.72
+_HORIZON_DEFICIT = 0.028  # the air that a level look ends in lies higher and is colder
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -47,9 +51,14 @@ def zenith_emissivity(vapour_pressure: FloatArray) -> FloatArray:
 def clear_sky_emissivity(elevation: FloatArray, zenith: FloatArray | float) -> FloatArray:
     """Emissivity [-] in 8-14 um of the clear sky at an elevation [deg], 0 to 90, from that of the zenith.
 
-    1 - (1 - zenith)^(m^0.65) with the relative air mass m: within 6 K of apparent temperature of [LOWTRAN7], mostly 3.
+    1 - (1 - zenith)^(m^p) with the relative air mass m, less a little near the horizon: within 2.5 K of apparent
+    temperature of the six atmospheres of [LOWTRAN7] at every elevation, mostly 1.
     """
-    return np.asarray(1.0 - (1.0 - zenith) ** (relative_air_mass(elevation) ** _AIR_MASS_EXPONENT), dtype=np.float64)
+    mass = relative_air_mass(elevation)
+    high = np.interp(zenith, _ZENITH_EMISSIVITY, _AIR_MASS_EXPONENT)
+    level = (np.log(mass) / np.log(relative_air_mass(np.zeros(())))) ** 2
+    grown = 1.0 - (1.0 - zenith) ** (mass ** (high + (_HORIZON_EXPONENT - high) * level))
+    return np.asarray(grown - _HORIZON_DEFICIT * grown**8, dtype=np.float64)
 
 
 def band_sky(elevation: FloatArray, *, vapour_pressure: float, cloud_cover: float) -> BandSky:

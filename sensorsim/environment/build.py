@@ -12,6 +12,7 @@ from sensorsim.environment.environment import Environment
 from sensorsim.environment.ground import ground_albedo
 from sensorsim.environment.humidity import vapour_pressure
 from sensorsim.environment.measured_sunlight import measured_sunlight
+from sensorsim.environment.moon import Moonlight, moonlight
 from sensorsim.environment.near_infrared import NearInfrared, near_infrared
 from sensorsim.environment.perez_sky import SkyBrightness, sky_brightness
 from sensorsim.environment.quadrants import circumsolar_share, quadrant_irradiance
@@ -34,6 +35,7 @@ class _Light:
     quadrant: FloatArray
     brightness: SkyBrightness
     near: NearInfrared
+    moon: Moonlight
 
 
 def build_environment(
@@ -43,6 +45,8 @@ def build_environment(
     lead_in_days: float = 3.0,
     step: float = 300.0,
     visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
+    city_glow: float = 0.0,
 ) -> Environment:
     """Environment from `lead_in_days` before the image day to its last midnight.
 
@@ -54,6 +58,9 @@ def build_environment(
     lead_in_days : [day] history before the image day, a whole number of steps
     step : [s] a whole number of them makes a day
     visibility : [m] meteorological range
+    aerosol : kind of haze or fog, as `band_transmittance` knows them
+    city_glow : [W m-2] irradiance of the horizontal by the sky over a city at night, 0.8-1.1 um; none over open land,
+        where NIGHT_GLOW is all, and some ten times that near a town
 
     Raises
     ------
@@ -65,11 +72,15 @@ def build_environment(
     if weather.typical_year:
         weather = unroll_typical_year(weather, start=start, image_start=image_start)
     _require_cover(weather, start, image_start)
+    if not 0.0 <= city_glow < math.inf:
+        raise InputError(weather.file, "city_glow", city_glow, "not an irradiance", "give 0 or more, in W/m2")
     grid: FloatArray = np.arange(lead_in + round(SECONDS_PER_DAY / step) + 1, dtype=np.float64) * step
     series = resample_weather(weather, grid + (start - weather.start).total_seconds())
     end = image_start + timedelta(days=1)
     light = _light(cut_weather(weather, start, end), series)
-    return _assemble(series, light, start=start, image_start=image_start, step=step, visibility=visibility)
+    return _assemble(
+        series, light, start=start, image_start=image_start, step=step, air=(visibility, aerosol), city_glow=city_glow
+    )
 
 
 def longest_lead_in(weather: Weather, image_day: date) -> int:
@@ -81,16 +92,21 @@ def longest_lead_in(weather: Weather, image_day: date) -> int:
 
 
 def _assemble(
-    series: Weather, light: _Light, *, start: datetime, image_start: datetime, step: float, visibility: float
+    series: Weather,
+    light: _Light,
+    *,
+    start: datetime,
+    image_start: datetime,
+    step: float,
+    air: tuple[float, str],
+    city_glow: float,
 ) -> Environment:
     """Put weather, sun, sky and ground on the grid together."""
     vapour = vapour_pressure(series.air_temperature, series.relative_humidity)
     return Environment(
         name=series.name,
         site=series.site,
-        start=start,
-        image_start=image_start,
-        step=step,
+        start=start, image_start=image_start, step=step,
         time=series.time - series.time[0],
         air_temperature=series.air_temperature,
         relative_humidity=series.relative_humidity,
@@ -101,7 +117,7 @@ def _assemble(
         precipitation=series.precipitation,
         ground_state=series.ground_state,
         ground_albedo=ground_albedo(series.ground_state),
-        visibility=visibility,
+        visibility=air[0], aerosol=air[1],
         sun_direction=light.position.direction,
         sun_elevation=light.position.elevation,
         beam_irradiance=light.broadband.beam,
@@ -111,8 +127,10 @@ def _assemble(
         horizon_brightness=light.brightness.horizon,
         sky_temperature=_sky_temperature(series, vapour),
         nir_beam=light.near.beam,
-        nir_quadrant=light.near.quadrant,
-    )
+        nir_quadrant=light.near.quadrant + (light.moon.diffuse[:, None] + city_glow) / 4.0,
+        moon_direction=light.moon.direction,
+        moon_beam=light.moon.beam,
+    )  # fmt: skip
 
 
 def _light(weather: Weather, series: Weather) -> _Light:
@@ -133,6 +151,7 @@ def _light(weather: Weather, series: Weather) -> _Light:
         quadrant=quadrant_irradiance(light.diffuse, position.azimuth, share),
         brightness=sky_brightness(light, position),
         near=near_infrared(clear, light, position, series.cloud_cover, share),
+        moon=moonlight(series.site, utc, position, series.cloud_cover),
     )
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from datetime import datetime
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,7 @@ class Environment:
     ground_state: NDArray[np.str_]  # (n,) 'dry', 'wet' or 'snow'
     ground_albedo: FloatArray  # (n,) [-] solar
     visibility: float  # [m] meteorological range, the same all the time
+    aerosol: str  # kind of haze or fog
     sun_direction: FloatArray  # (n, 3) unit vector east, north, up towards the sun, also below the horizon
     sun_elevation: FloatArray  # (n,) [deg] apparent
     beam_irradiance: FloatArray  # (n,) [W m-2] normal to the sun
@@ -46,7 +48,9 @@ class Environment:
     horizon_brightness: FloatArray  # (n,) [-] F2 of [Perez1990], of the horizon against the dome
     sky_temperature: FloatArray  # (n,) [K] black hemisphere, all long wavelengths
     nir_beam: FloatArray  # (n,) [W m-2] normal to the sun, 0.8-1.1 um
-    nir_quadrant: FloatArray  # (n, 4) [W m-2] diffuse on the horizontal, 0.8-1.1 um, with twilight and night glow
+    nir_quadrant: FloatArray  # (n, 4) [W m-2] diffuse on the horizontal, 0.8-1.1 um, with twilight, moon and night glow
+    moon_direction: FloatArray  # (n, 3) unit vector east, north, up towards the moon, also below the horizon
+    moon_beam: FloatArray  # (n,) [W m-2] normal to the moon, 0.8-1.1 um
 
     @property
     def sky_brightness(self) -> SkyBrightness:
@@ -72,11 +76,7 @@ class Environment:
         low = min(int(position), len(self.time) - 2)
         share = position - low
         held = low + int(share >= 1.0)
-
-        def mix(values: FloatArray) -> FloatArray:
-            return np.asarray((1.0 - share) * values[low] + share * values[low + 1], dtype=np.float64)
-
-        direction = mix(self.sun_direction)
+        mix = partial(_between, low=low, share=share)
         return EnvironmentSample(
             time_of_day=time_of_day,
             air_temperature=float(mix(self.air_temperature)),
@@ -88,11 +88,22 @@ class Environment:
             ground_state=str(self.ground_state[held]),
             ground_albedo=float(self.ground_albedo[held]),
             visibility=self.visibility,
-            sun_direction=direction / np.linalg.norm(direction),
+            aerosol=self.aerosol,
+            sun_direction=_unit(mix(self.sun_direction)),
             sun_elevation=float(mix(self.sun_elevation)),
             beam_irradiance=float(mix(self.beam_irradiance)),
             quadrant_irradiance=mix(self.quadrant_irradiance),
             sky_temperature=float(mix(self.sky_temperature)),
             nir_beam=float(mix(self.nir_beam)),
             nir_quadrant=mix(self.nir_quadrant),
+            moon_direction=_unit(mix(self.moon_direction)),
+            moon_beam=float(mix(self.moon_beam)),
         )
+
+
+def _unit(direction: FloatArray) -> FloatArray:
+    return np.asarray(direction / np.linalg.norm(direction))
+
+
+def _between(values: FloatArray, low: int, share: float) -> FloatArray:
+    return np.asarray((1.0 - share) * values[low] + share * values[low + 1], dtype=np.float64)

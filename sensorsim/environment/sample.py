@@ -26,6 +26,7 @@ class EnvironmentSample:
     ground_state: str  # 'dry', 'wet' or 'snow'
     ground_albedo: float  # [-] solar
     visibility: float  # [m]
+    aerosol: str  # kind of haze or fog
     sun_direction: FloatArray  # (3,) unit vector east, north, up
     sun_elevation: float  # [deg] apparent
     beam_irradiance: float  # [W m-2] normal to the sun
@@ -33,6 +34,8 @@ class EnvironmentSample:
     sky_temperature: float  # [K] black hemisphere, all long wavelengths
     nir_beam: float  # [W m-2] normal to the sun, 0.8-1.1 um
     nir_quadrant: FloatArray  # (4,) [W m-2] diffuse on the horizontal, 0.8-1.1 um
+    moon_direction: FloatArray  # (3,) unit vector east, north, up
+    moon_beam: float  # [W m-2] normal to the moon, 0.8-1.1 um
 
     @property
     def cloud_temperature(self) -> float:
@@ -44,21 +47,23 @@ class EnvironmentSample:
         return band_sky(elevation, vapour_pressure=self.vapour_pressure, cloud_cover=self.cloud_cover)
 
     def transmittance(self, band: str) -> Transmittance:
-        """Transmittance of 'FLIR' or 'LLLTV' along a level path."""
+        """Transmittance of 'FLIR', 'MWIR' or 'LLLTV' along a level path."""
         return band_transmittance(
             band,
             air_temperature=self.air_temperature,
             relative_humidity=self.relative_humidity,
             visibility=self.visibility,
             precipitation=self.precipitation,
+            aerosol=self.aerosol,
         )
 
     def attenuation_coefficient(self, band: str) -> float:
-        """Single coefficient [m-1] of [Report1978] eq. 15 for 'FLIR' or 'LLLTV'."""
+        """Single coefficient [m-1] of [Report1978] eq. 15 for a band."""
         return attenuation_coefficient(
             band,
             air_temperature=self.air_temperature,
             relative_humidity=self.relative_humidity,
             visibility=self.visibility,
             precipitation=self.precipitation,
+            aerosol=self.aerosol,
         )

@@ -9,6 +9,7 @@ import numpy as np
 from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.effects import NOT_MODELLED
 from sensorsim.errors import InputError
+from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
 from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.frames.writer import inputs_sha256
 from sensorsim.render import Camera, Picture, Renderer
@@ -24,15 +25,26 @@ def take_frame(
     *,
     display: DisplaySettings | None = None,
     frame: int = 0,
+    fit_error: bool = False,
 ) -> Frame:
     """Frame at a local standard time (or one with an offset, or seconds after midnight) of the world's image day.
 
-    frame: its number in a sequence, which decides its noise.
+    frame: its number in a sequence, which decides its noise. With `fit_error` it has a plane of that name, for which
+    all surfaces are solved in full: that takes seconds.
     """
     time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
     picture = renderer.render(camera, time_of_day, display=display, frame=frame)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
-    return build_frame(picture.planes, {**request, **_outcome(picture), "request_sha256": inputs_sha256(request)})
+    settings: dict[str, JSON] = {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
+    if not fit_error:
+        return build_frame(picture.planes, settings)
+    error = surface_fit_error(renderer.world, time_of_day)
+    plane = fit_error_plane(error, picture.planes["surface_id"])
+    told: dict[str, JSON] = {
+        "of": "tables less full solve, without sign",
+        "largest_of_all_surfaces_K": float(error.max()),
+    }
+    return build_frame({**picture.planes, "fit_error": plane}, {**settings, "fit_error": told})
 
 
 def plane_names(sensor: Sensor) -> tuple[str, ...]:
@@ -83,19 +95,32 @@ def request_settings(
         "size": list(renderer.size),
         "samples": renderer.samples,
         "frame": frame,
+        "air": renderer.atmosphere,
         "camera": _camera_settings(renderer, camera),
         "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
     }
 
 
-def _outcome(picture: Picture) -> dict[str, JSON]:
+def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
+    """Name and terms of the air that a picture was seen through."""
+    air = picture.illumination.air
+    return {
+        "name": renderer.atmosphere,
+        "weight": air.weight.tolist(),
+        "coefficient_per_m": air.coefficient.tolist(),
+        "inverse_scale_height_per_m": air.inverse_scale_height.tolist(),
+        "source_W_m-2_sr-1": air.source.tolist(),
+    }
+
+
+def _outcome(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
     """What was found while drawing."""
     display = picture.display
     window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
     return {
         "display": {**window, "tone": display.tone, "gamma": display.gamma},
         "effects": picture.ledger.to_list(),
-        "atmosphere": {"form": "one coefficient", "attenuation_per_m": picture.illumination.attenuation},
+        "atmosphere": _air_settings(renderer, picture),
     }
 
 

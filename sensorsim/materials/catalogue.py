@@ -18,6 +18,7 @@ from sensorsim.materials.wall_type import Room, WallPart, WallType, mixed_wall_t
 from sensorsim.resources import assets_folder
 
 _SUBSTANCES, _READINGS, _CLASSES = "substances.toml", "readings.toml", "classes.toml"
+_GLOSS = "gloss.toml"  # read by `load_gloss`
 SOIL = "subsoil"  # the substance that lies below planes whose own layers have no ground in them
 UNKNOWN_COVERAGE = Coverage()
 
@@ -116,7 +117,7 @@ class Catalogue:
 def _read_materials(folder: Path, substances: Substances) -> dict[int, Material]:
     materials: dict[int, Material] = {}
     for path in sorted(folder.glob("*.toml")):
-        if path.name in (_SUBSTANCES, _READINGS, _CLASSES):
+        if path.name in (_SUBSTANCES, _READINGS, _CLASSES, _GLOSS):
             continue
         whole = read_toml(path)
         whole.refuse_unknown(("material",))
@@ -150,8 +151,9 @@ def _soil(folder: Path, substances: Substances) -> Layer | None:
 def load_catalogue(folder: Path | None = None) -> Catalogue:
     """Catalogue of a folder of TOML files; without one, the package's own, assets/materials.
 
-    Every file but substances.toml (layers that entries may name), readings.toml (codes read as others) and classes.toml
-    (construction classes) holds [[material]] entries. A folder of one's own stands alone: copy the package's and edit.
+    Every file but substances.toml (layers that entries may name), readings.toml (codes read as others), gloss.toml
+    (surfaces that mirror; the package's own is read) and classes.toml (construction classes) holds [[material]]
+    entries. A folder of one's own stands alone: copy the package's and edit.
     Raises InputError.
     """
     folder = assets_folder() / "materials" if folder is None else folder

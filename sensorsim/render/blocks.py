@@ -23,8 +23,21 @@ ILLUMINATION = UniformBlock(
         Field("beam", "float", "irradiance normal to the sun [W m-2]"),
         Field("sky_radiance", "float", "of the sky, mean over a horizontal surface's hemisphere [W m-2 sr-1]"),
         Field("ground_radiance", "float", "of the ground plane [W m-2 sr-1]"),
-        Field("air_radiance", "float", "of an infinite path through the air [W m-2 sr-1]"),
-        Field("attenuation", "float", "of the air [m-1]"),
+    ),
+)
+
+AIR = UniformBlock(
+    name="Air",
+    binding=4,
+    fields=(
+        Field("extinction", "vec4", "of each term at the camera's height [m-1]"),
+        Field("weight", "vec4", "of each term, together 1; 0 for terms that are not used"),
+        Field("inverse_scale_height", "vec4", "of each term's extinction [m-1]"),
+        Field("source", "vec4", "of each term at the camera's height [W m-2 sr-1]"),
+        Field("source_slope", "vec4", "of each term, with height [W m-2 sr-1 m-1]"),
+        Field("beam_source", "vec4", "of each term, sunlight scattered at a right angle [W m-2 sr-1]"),
+        Field("sun_direction", "vec3", "towards the sun"),
+        Field("asymmetry", "float", "g of the phase function"),
     ),
 )
 

@@ -5,25 +5,30 @@ from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.effects import (
     EFFECTS,
     FRAME,
+    AirBefore,
     EffectChoice,
     Ledger,
     Limits,
     Look,
+    Mirrors,
     applicable,
     decide,
     emissive_bounds,
-    opacity,
     reflective_bounds,
     reflective_tolerance,
 )
 from sensorsim.radiometry import BandTable, build_band_table
+from sensorsim.render.air import DEFAULT_ATMOSPHERE
 from sensorsim.render.camera import Camera
 from sensorsim.render.illumination import Illumination, illuminate
-from sensorsim.render.ranges import ground_range, longest_range
+from sensorsim.render.mirror import gloss_records, rise_table
+from sensorsim.render.ranges import ground_range, in_view
+from sensorsim.render.surface_table import surface_codes
 from sensorsim.render.survey import Survey, tolerance_of
 from sensorsim.render.world import World
 from sensorsim.scene import Scene
@@ -36,7 +41,7 @@ SHORT = 0.02  # [-] opacity of a path below which leaving it out is worth a clos
 
 
 class Decided(Protocol):
-    """A scene whose effects of the surface are decided: a survey, or a decided."""
+    """A scene whose effects of the surface are decided: a survey, or a world."""
 
     @property
     def scene(self) -> Scene: ...  # noqa: D102
@@ -67,7 +72,7 @@ def frame_ledger(
             effects, reflective_bounds(look), decided.choice, tolerance=reflective_tolerance(look), unit="W m-2 sr-1"
         )
     else:
-        if extremes is not None and opacity(look.attenuation, look.longest_range) < SHORT:
+        if extremes is not None and look.air.worst_opacity < SHORT:
             coldest, warmest = extremes()
             look = replace(look, coldest=coldest, warmest=warmest)
         mirrored = decided.choice.asked("reflected_sky") is not False
@@ -89,7 +94,10 @@ def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:
     return float(found.min()), float(found.max())
 
 
-def survey_ledger(survey: Survey, sensor: Sensor, camera: Camera, size: tuple[int, int], time_of_day: float) -> Ledger:
+def survey_ledger(
+    survey: Survey, sensor: Sensor, camera: Camera, size: tuple[int, int], time_of_day: float, *,
+    atmosphere: str = DEFAULT_ATMOSPHERE,
+) -> Ledger:  # fmt: skip
     """The same before anything is baked, at a time of the image day [s]; of the scene only the ground is solved."""
     table, ground = None, float("nan")
     if sensor.mode == "emissive":
@@ -99,25 +107,47 @@ def survey_ledger(survey: Survey, sensor: Sensor, camera: Camera, size: tuple[in
         )
         day = history[survey.environment.image_window]
         ground = float(np.interp(time_of_day / survey.environment.step, np.arange(day.size), day))
-    illumination = illuminate(sensor, survey.environment.at(time_of_day), ground, table)
+    illumination = illuminate(
+        sensor, survey.environment.at(time_of_day), ground, table, atmosphere=atmosphere,
+        camera_height=float(camera.position[2]),
+    )  # fmt: skip
     return frame_ledger(survey, sensor, table, camera, size, illumination)
 
 
 def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination: Illumination) -> Look:
+    seen, assignment, sky = in_view(camera, size, decided.scene.mesh), decided.assignment, illumination.sky
     return Look(
-        normal=decided.scene.surfaces.normal,
-        emissivity=decided.assignment.emissivity,
-        reflectance=decided.assignment.nir_reflectance,
+        normal=decided.scene.surfaces.normal[seen.surface],
+        emissivity=assignment.emissivity[seen.surface],
+        reflectance=assignment.nir_reflectance[seen.surface],
+        mirrors=_mirrors(assignment, seen.surface),
         coldest=decided.limits.coldest,
         warmest=decided.limits.greatest,
-        longest_range=longest_range(camera, size, decided.scene.mesh),
-        ground_range=ground_range(camera, size),
         sun_direction=np.asarray(illumination.sun_direction),
         beam=illumination.beam,
         quadrant=np.asarray(illumination.quadrant),
         sky_radiance=illumination.sky_radiance,
+        sky_range=(float(sky.min()), float(sky.max())),
         ground_radiance=illumination.ground_radiance,
-        air_radiance=illumination.air_radiance,
-        attenuation=illumination.attenuation,
+        air=AirBefore(
+            path=illumination.air,
+            camera_height=float(camera.position[2]),
+            surface_heights=seen.heights,
+            longest_range=seen.longest_range,
+            ground_range=ground_range(camera, size),
+        ),
         pixels=size[0] * size[1],
+    )
+
+
+def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:
+    """Those of the surfaces that mirror."""
+    codes, matt = surface_codes(assignment)[surface], assignment.emissivity[surface]
+    record, rise = gloss_records(codes, matt), rise_table()
+    glossy = record[:, 0] >= 0.0
+    kind, along_normal = record[glossy, 0].astype(np.int64), record[glossy, 1]
+    return Mirrors(
+        matt=matt[glossy],
+        least=along_normal * (1.0 - rise.max(axis=1)[kind]),
+        greatest=along_normal * (1.0 - rise.min(axis=1)[kind]),
     )

@@ -3,7 +3,7 @@
 Emissive bands: sky and ground glow by their own temperatures. Reflective bands: sun, sky and sunlit ground.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,18 @@ from numpy.typing import NDArray
 from sensorsim.constants import PI
 from sensorsim.environment import (
     CLOUD_TEMPERATURE_DEPRESSION,
+    AirPath,
     EnvironmentSample,
-    attenuation_coefficient,
+    SkyGlow,
     band_sky,
+    clear_glow,
+    clear_path,
+    overcast_radiance,
 )
+from sensorsim.environment.sky_glow import INDICATRIX_ENTRIES
 from sensorsim.radiometry import BandTable
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_path
+from sensorsim.render.mirror import mirror_table
 from sensorsim.sensor import Sensor
 from sensorsim.tables import LookupTable
 
@@ -28,49 +35,76 @@ SKY_ENTRIES = 1024  # from the horizon to the zenith, equally spaced in the sine
 class Illumination:
     """Surroundings in band: irradiance [W m-2], radiance [W m-2 sr-1]."""
 
-    sun_direction: FloatArray  # (3,) unit
+    sun_direction: FloatArray  # (3,) unit, towards the moon where it is the brighter light
     beam: float  # irradiance normal to the sun
     quadrant: FloatArray  # (4,) irradiance of the horizontal from the N, E, S and W quarter of the sky
     sky: FloatArray  # (SKY_ENTRIES,) radiance at elevations whose sine goes from 0 to 1
     ground_radiance: float
-    air_radiance: float  # of an infinite path through the air
-    attenuation: float  # [m-1]
+    air: AirPath
+    glow: SkyGlow | None = None  # what the sky sends besides `sky`, leaning to the sun
 
     @property
     def sky_radiance(self) -> float:
         """Radiance of the uniform sky that gives a horizontal surface the same irradiance."""
         sine = _sines()
-        return float(np.trapezoid(self.sky * sine, sine) / np.trapezoid(sine, sine))
+        even = float(np.trapezoid(self.sky * sine, sine) / np.trapezoid(sine, sine))
+        return even if self.glow is None else even + self.glow.irradiance / PI
 
     def sky_table(self) -> LookupTable:
         """Sky radiance against the sine of the elevation, for the background.
 
         The sine is a view's upward component. An arc sine in the shader would cost 7 mK: drivers approximate it.
         """
-        return LookupTable(
-            name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0, values=self.sky
+        return _table("sky_radiance", "Radiance", 0.0, self.sky)
+
+    def mirror_table(self) -> FloatArray:
+        """What each kind of gloss shows, (kinds, MIRROR_ENTRIES), by the upward part of the mirror direction."""
+        return mirror_table(self.sky, self.ground_radiance)
+
+    def glow_tables(self) -> tuple[LookupTable, LookupTable]:
+        """Gradation of the sky's glow by the sine of the elevation, its indicatrix by the cosine from the sun."""
+        none = SkyGlow(gradation=np.zeros(SKY_ENTRIES), indicatrix=np.zeros(INDICATRIX_ENTRIES), irradiance=0.0)
+        glow = none if self.glow is None else self.glow
+        return (
+            _table("sky_gradation", "Radiance", 0.0, glow.gradation),
+            _table("sky_indicatrix", "Ratio", -1.0, glow.indicatrix),
         )
 
 
+def dark() -> Illumination:
+    """No light at all: what tables are laid out with before the first moment."""
+    return Illumination(
+        sun_direction=np.array([0.0, 0.0, 1.0]), beam=0.0, quadrant=np.zeros(4), sky=np.zeros(SKY_ENTRIES),
+        ground_radiance=0.0, air=clear_path(),
+    )  # fmt: skip
+
+
+def _table(name: str, quantity: str, lowest: float, values: FloatArray) -> LookupTable:
+    return LookupTable(name=name, quantity=quantity, argument="Ratio", minimum=lowest, maximum=1.0, values=values)
+
+
 def illuminate(
-    sensor: Sensor, sample: EnvironmentSample, ground_temperature: float, table: BandTable | None
+    sensor: Sensor,
+    sample: EnvironmentSample,
+    ground_temperature: float,
+    table: BandTable | None,
+    *,
+    atmosphere: str = DEFAULT_ATMOSPHERE,
+    camera_height: float = 0.0,
 ) -> Illumination:
-    """Surroundings of a moment as `sensor` sees them; `table` is its band's, for emissive sensors."""
-    attenuation = attenuation_coefficient(
-        sensor.band.name,
-        air_temperature=sample.air_temperature,
-        relative_humidity=sample.relative_humidity,
-        visibility=sample.visibility,
-        precipitation=sample.precipitation,
-    )
-    if table is None:
-        return _reflective(sample, attenuation)
-    return _emissive(sample, ground_temperature, table, attenuation)
+    """Surroundings of a moment as `sensor` sees them from a height [m]; `table` is its band's, if it is emissive.
+
+    InputError for an atmosphere that is unknown or that this moment is not covered by.
+    """
+    around = _reflective(sample) if table is None else _emissive(sample, ground_temperature, table)
+    air = air_path(
+        atmosphere, sensor, sample, table, beam=around.beam, sky_radiance=around.sky_radiance,
+        ground_radiance=around.ground_radiance, camera_height=camera_height,
+    )  # fmt: skip
+    return replace(around, air=air)
 
 
-def _emissive(
-    sample: EnvironmentSample, ground_temperature: float, table: BandTable, attenuation: float
-) -> Illumination:
+def _emissive(sample: EnvironmentSample, ground_temperature: float, table: BandTable) -> Illumination:
     parts = band_sky(
         np.degrees(np.arcsin(_sines())), vapour_pressure=sample.vapour_pressure, cloud_cover=sample.cloud_cover
     )
@@ -82,23 +116,25 @@ def _emissive(
         quadrant=np.zeros(4),
         sky=parts.air * air + parts.cloud * cloud,
         ground_radiance=float(table.radiance_at(ground_temperature)),  # a near black body, section 3.1.3
-        air_radiance=air,
-        attenuation=attenuation,
+        air=clear_path(),
     )
 
 
-def _reflective(sample: EnvironmentSample, attenuation: float) -> Illumination:
+def _reflective(sample: EnvironmentSample) -> Illumination:
     diffuse = float(np.sum(sample.nir_quadrant))
-    received = sample.nir_beam * max(float(sample.sun_direction[2]), 0.0) + diffuse
-    sky = diffuse / PI
+    by_moon = sample.moon_beam > sample.nir_beam
+    light, beam = (sample.moon_direction, sample.moon_beam) if by_moon else (sample.sun_direction, sample.nir_beam)
+    lit = light[2] > 0.0 and (beam > 0.0 or sample.sun_elevation > 0.0)  # else no one knows where the light comes from
+    clear = diffuse * (1.0 - sample.cloud_cover) if lit else 0.0
+    received = beam * max(float(light[2]), 0.0) + diffuse
     return Illumination(
-        sun_direction=sample.sun_direction,
-        beam=sample.nir_beam,
+        sun_direction=light,
+        beam=beam,
         quadrant=sample.nir_quadrant,
-        sky=np.full(SKY_ENTRIES, sky),
+        sky=overcast_radiance(diffuse - clear, SKY_ENTRIES) if lit else np.full(SKY_ENTRIES, diffuse / PI),
         ground_radiance=sample.ground_albedo * received / PI,
-        air_radiance=sky,  # the air lights up to the brightness of the horizon
-        attenuation=attenuation,
+        air=clear_path(),
+        glow=clear_glow(clear, light, SKY_ENTRIES) if lit else None,
     )
 
 

@@ -6,7 +6,7 @@ import moderngl
 
 from sensorsim.gpu import UniformBlock, bind_samplers, build_program, constants_glsl, screen_triangle
 from sensorsim.gpu.mesh import MeshBuffers
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
 from sensorsim.tables import LookupTable
 
 TEXTURE_UNITS = {
@@ -29,6 +29,10 @@ TEXTURE_UNITS = {
     "block_picture": 14,
     "baseline_picture": 15,
     "halo_picture": 14,
+    "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
+    "sky_indicatrix_table": 17,
+    "rise_table": 18,
+    "mirror_table": 19,
 }
 
 
@@ -65,12 +69,14 @@ def surface_pass(
         ctx,
         "scene/surface.vert",
         "scene/surface.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=(
             "surface_table",
             "coefficient_table",
             "band_radiance_table",
-            *(("lobe_table",) if defines["LOBES"] else ()),
+            "lobe_table",
+            "rise_table",
+            "mirror_table",
         ),
         generated={**generated, "constants": constants_glsl()},
         defines=defines,
@@ -80,12 +86,13 @@ def surface_pass(
 
 def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines: Mapping[str, int]) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
+    glow = () if defines["EMISSIVE"] else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
         "common/screen.vert",
         "scene/background.frag",
-        blocks=(VIEW_FRAME, ILLUMINATION),
-        samplers=("sky_radiance_table",),
+        blocks=(VIEW_FRAME, ILLUMINATION, AIR),
+        samplers=("sky_radiance_table", *glow),
         generated=generated,
         defines=defines,
     )

@@ -1,5 +1,7 @@
 """How far away what a camera sees can be, at most: from the mesh and the picture's edges, with nothing drawn."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,8 +11,17 @@ from sensorsim.scene.mesh import Mesh
 FloatArray = NDArray[np.float64]
 
 
-def longest_range(camera: Camera, size: tuple[int, int], mesh: Mesh) -> float:
-    """Upper bound [m] of the distance to any surface in a picture of `size`; 0 where none can be in view.
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class InView:
+    """What of a mesh may be in a picture."""
+
+    surface: NDArray[np.int64]  # (s,) rows of the surfaces, each once
+    heights: tuple[float, float]  # lowest and highest of them [m]; 0 where there are none
+    longest_range: float  # upper bound of the distance to any of them [m]; 0 where there are none
+
+
+def in_view(camera: Camera, size: tuple[int, int], mesh: Mesh) -> InView:
+    """What may be in a picture of `size`.
 
     A triangle is out of view where all its corners lie beyond one edge of the picture; of the others the farthest
     corner counts. Looking down all over the picture, no ray goes farther than to the scene's lowest level.
@@ -22,11 +33,15 @@ def longest_range(camera: Camera, size: tuple[int, int], mesh: Mesh) -> float:
     beyond = np.stack(
         [sign * (offset @ axis) > half * ahead for axis, half in ((right, width), (up, height)) for sign in (-1.0, 1.0)]
     )
-    seen = ~np.any(np.all(beyond[:, mesh.triangle], axis=2), axis=0)
-    if not np.any(seen):
-        return 0.0
-    farthest = float(np.linalg.norm(offset[mesh.triangle[seen]], axis=-1).max())
-    return min(farthest, _descent(camera, size, float(camera.position[2] - mesh.position[:, 2].min())))
+    seen = mesh.triangle[~np.any(np.all(beyond[:, mesh.triangle], axis=2), axis=0)]
+    if seen.size == 0:
+        return InView(surface=np.zeros(0, dtype=np.int64), heights=(0.0, 0.0), longest_range=0.0)
+    level, farthest = mesh.position[seen, 2], float(np.linalg.norm(offset[seen], axis=-1).max())
+    return InView(
+        surface=np.unique(mesh.surface[seen]).astype(np.int64),
+        heights=(float(level.min()), float(level.max())),
+        longest_range=min(farthest, _descent(camera, size, float(camera.position[2] - mesh.position[:, 2].min()))),
+    )
 
 
 def ground_range(camera: Camera, size: tuple[int, int]) -> float:

@@ -1,7 +1,7 @@
 """One frame as an ordered list of passes: surfaces, background, read-back, window, display."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any, Self
 
@@ -10,16 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.effects import EffectPlan, Ledger
+from sensorsim.environment import clear_path
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
-from sensorsim.render.blocks import DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
+from sensorsim.render.blocks import AIR, DISPLAY, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
-from sensorsim.render.illumination import SKY_ENTRIES, Illumination, illuminate
+from sensorsim.render.illumination import Illumination, illuminate
+from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS, display_pass
 from sensorsim.render.sensor_chain import SensorChain
-from sensorsim.render.surface_table import surface_table
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
@@ -32,9 +34,8 @@ from sensorsim.sensor import (
     window_limits,
 )
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
-_BLOCKS = (VIEW_FRAME, ILLUMINATION, DISPLAY)
+_BLOCKS = (VIEW_FRAME, AIR, DISPLAY)
 FILLED = 0.8  # of the detector's range, that an automatic iris aims at
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
@@ -56,8 +57,10 @@ class Renderer:
 
     def __init__(
         self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
-        samples: int = 1, blur_energy: float = 0.99,
+        samples: int = 1, blur_energy: float = 0.99, atmosphere: str = DEFAULT_ATMOSPHERE,
     ) -> None:  # fmt: skip
+        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces."""
+        self.atmosphere = check_atmosphere(atmosphere)
         if samples not in (1, 3, 5, 7):
             raise InputError("renderer", "samples", samples, "not 1, 3, 5 or 7", "give an odd number per pixel's side")
         if samples > 1 and sensor.detector is None:
@@ -100,14 +103,15 @@ class Renderer:
         number; without what the effects leave out. `illumination` replaces the surroundings of the moment.
         """
         if illumination is None:
-            illumination = self.illuminate(time_of_day)
+            illumination = self.illuminate(time_of_day, float(camera.position[2]))
         ledger = frame_ledger(
             self.world, self.sensor, self.band_table, camera, self.size, illumination,
             extremes=lambda: world_extremes(self.world, time_of_day),
         )  # fmt: skip
+        illumination = seen_with(illumination, ledger.plan)
         with self.ctx:  # another renderer's context may have become the current one
-            self._set_moment(time_of_day, illumination, ledger.plan)
-            self._draw(camera, ledger.plan)
+            self._moment.set(time_of_day, illumination, ledger.plan)
+            self._draw(camera, illumination, ledger.plan)
             planes = self._read(ledger.plan)
             self._detect(camera, planes, frame)
             settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
@@ -117,40 +121,23 @@ class Renderer:
             ledger=ledger,
         )  # fmt: skip
 
-    def illuminate(self, time_of_day: float) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band."""
+    def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
+        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
-        return illuminate(self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table)
+        return illuminate(
+            self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table,
+            atmosphere=self.atmosphere, camera_height=camera_height,
+        )  # fmt: skip
 
     def _build(self) -> None:
-        ctx, world = self.ctx, self.world
-        mesh, records = world.scene.mesh, self._records(0.0)
-        band = self._band_lookup()
-        sky = LookupTable(
-            name="sky_radiance", quantity="Radiance", argument="Ratio", minimum=0.0, maximum=1.0,
-            values=np.zeros(SKY_ENTRIES),
-        )  # fmt: skip
-        self._tables = {
-            "surface_table": float_table(ctx, "surface_table", records),
-            "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
-            "sky_radiance_table": float_table(ctx, "sky_radiance_table", sky.texels),
-        }
-        self._tables_at = 0.0
-        for name, texels in shade_texels(world.tables, self._tables_at).items():
-            self._tables[name] = float_table(ctx, name, np.nan_to_num(texels))
-        generated = {
-            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
-            "band_radiance": band.glsl(),
-            "sky_radiance": sky.glsl(),
-        }
-        vertices = mesh_buffers(
-            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
-        )
-        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
-        self._programs = Programs(ctx, vertices, generated, emissive=emissive, lobes=lobes)
+        ctx, mesh = self.ctx, self.world.scene.mesh
+        self._moment = MomentTables(ctx, self.world, self.band_table)
+        vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
+        buffers = mesh_buffers(ctx, vertices, mesh.triangle)
+        self._programs = Programs(ctx, buffers, self._moment.generated, emissive=self.band_table is not None)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -158,7 +145,7 @@ class Renderer:
         curve = LookupTable(
             name="tone", quantity="Ratio", argument="Ratio", minimum=0.0, maximum=1.0, values=np.zeros(TONE_ENTRIES)
         )
-        self._tables["tone_table"] = float_table(ctx, "tone_table", curve.texels)
+        self._tone = float_table(ctx, "tone_table", curve.texels)
         self._show, self._show_curve = display_pass(ctx), display_pass(ctx, curve)
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
@@ -169,51 +156,7 @@ class Renderer:
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
-    def _band_lookup(self) -> LookupTable:
-        """Band radiance against temperature; reflective bands compile it but never read it."""
-        table = self.band_table
-        return LookupTable(
-            name="band_radiance",
-            quantity="Radiance",
-            argument="Kelvin",
-            minimum=150.0 if table is None else float(table.temperature[0]),
-            maximum=700.0 if table is None else float(table.temperature[-1]),
-            values=np.zeros(2) if table is None else table.radiance,
-        )
-
-    def _records(self, time_of_day: float) -> NDArray[np.float32]:
-        """Surface table at a time of the image day [s]."""
-        world, surfaces = self.world, self.world.scene.surfaces
-        offset = None if world.offsets is None else world.offsets.at(time_of_day, surfaces.area.size)
-        return surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations, offset)
-
-    def _set_moment(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
-        if self.world.offsets is not None:
-            update_table(self._tables["surface_table"], self._records(time_of_day))
-        if plan.has("temperature"):
-            self._set_tables(time_of_day)
-        update_table(self._tables["sky_radiance_table"], illumination.sky_table().texels)
-        self._blocks["Illumination"].write(
-            ILLUMINATION.pack(
-                quadrant=illumination.quadrant,
-                sun_direction=illumination.sun_direction,
-                beam=illumination.beam,
-                sky_radiance=illumination.sky_radiance,
-                ground_radiance=illumination.ground_radiance,
-                air_radiance=illumination.air_radiance,
-                attenuation=illumination.attenuation,
-            )
-        )
-
-    def _set_tables(self, time_of_day: float) -> None:
-        """Upload the tables of a moment, where the clock has moved; what was not solved (NaN) no surface reads."""
-        if time_of_day == self._tables_at:
-            return
-        for name, texels in shade_texels(self.world.tables, time_of_day).items():
-            update_table(self._tables[name], np.nan_to_num(texels))
-        self._tables_at = time_of_day
-
-    def _draw(self, camera: Camera, plan: EffectPlan) -> None:
+    def _draw(self, camera: Camera, illumination: Illumination, plan: EffectPlan) -> None:
         position = self.world.scene.mesh.position
         near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
         corner, right, up = camera.view_rays(self.size)
@@ -226,6 +169,8 @@ class Renderer:
                 view_up=up,
             )
         )
+        air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
+        self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
         self._target.use()
         self._target.clear_depth()
@@ -237,8 +182,7 @@ class Renderer:
     def _bind(self) -> None:
         for block in _BLOCKS:
             self._blocks[block.name].bind_to_uniform_block(block.binding)
-        for name, texture in self._tables.items():
-            texture.use(TEXTURE_UNITS[name])
+        self._moment.bind()
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
     def _read(self, plan: EffectPlan) -> dict[str, NDArray[Any]]:
@@ -278,12 +222,19 @@ class Renderer:
         if not settings.is_straight:
             show = self._show_curve
             curve = tone_curve(settings.tone, settings.gamma, seen, low, high)
-            update_table(self._tables["tone_table"], curve[None, :])
-            self._tables["tone_table"].use(TEXTURE_UNITS["tone_table"])
+            update_table(self._tone, curve[None, :])
+            self._tone.use(TEXTURE_UNITS["tone_table"])
         self._screen.use()
         self.ctx.enable_only(moderngl.NOTHING)
         show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
+
+
+def seen_with(illumination: Illumination, plan: EffectPlan) -> Illumination:
+    """The surroundings by a plan: without its air, or without the sun's light on surfaces, where these are left out."""
+    if not plan.has("atmosphere"):
+        illumination = replace(illumination, air=clear_path())
+    return illumination if plan.has("reflected_sun") else replace(illumination, beam=0.0)
 
 
 def exposure_for(look: Sensitivity, radiance: NDArray[np.float32]) -> float:

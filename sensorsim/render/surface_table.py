@@ -6,11 +6,12 @@ The layout stands in shaders/scene/surface_record.glsl.
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.render.mirror import gloss_records
 from sensorsim.tables import OrientationSet
 from sensorsim.tables.assign import Assignment
 from sensorsim.thermal.view_factors import quadrant_view_factors
 
-SURFACE_TEXELS = 5
+SURFACE_TEXELS = 6
 SURFACES_PER_ROW = 1024
 
 
@@ -36,8 +37,14 @@ def surface_table(
     record[:, 4, 1] = feature
     if offset is not None:
         record[:, 4, 2] = offset
+    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity)
     rows = -(-count // SURFACES_PER_ROW)
     columns = SURFACES_PER_ROW if rows > 1 else count
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
     padded[:count] = record
     return padded.reshape(rows, columns * SURFACE_TEXELS, 4)
+
+
+def surface_codes(assignment: Assignment) -> NDArray[np.int64]:
+    """Material code (s,) of each surface."""
+    return np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)[assignment.wall_type]

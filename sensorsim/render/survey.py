@@ -21,7 +21,7 @@ from sensorsim.effects import (
     surface_bounds,
     term_cost,
 )
-from sensorsim.environment import Environment, Weather, build_environment, longest_lead_in
+from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, longest_lead_in
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.radiometry import build_band_table
 from sensorsim.scene import Scene
@@ -63,6 +63,8 @@ def survey_scene(
     *,
     image_day: date,
     settings: BakeSettings,
+    visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
     catalogue: Catalogue | None = None,
     choice: EffectChoice = EVERY_EFFECT,
     sensor: Sensor | None = None,
@@ -76,16 +78,18 @@ def survey_scene(
     choice = _with_exchange(choice, settings)
     choice.require_inputs(sky=settings.sky, mode=mode)
     lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
-    environment = build_environment(weather, image_day=image_day, lead_in_days=lead_in, step=settings.step)
+    environment = build_environment(
+        weather, image_day=image_day, lead_in_days=lead_in, step=settings.step, visibility=visibility, aerosol=aerosol
+    )
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     if choice.asked("snow") is False:
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
-    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    ground = ground_plane(catalogue, season)
     situation = _situation(environment, scene, assignment, ground, settings)
     limits = situation.limits
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
-    bounds = _worth(situation, limits, assignment, choice, sensor)
+    bounds = _worth(situation, limits, choice, sensor)
     bounds.update(_spared(environment, assignment, scene, settings))
     return Survey(
         scene=scene,
@@ -98,6 +102,11 @@ def survey_scene(
         ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
         limits=limits,
     )
+
+
+def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
+    """The plane that walls see: loam, or snow where it lies."""
+    return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
 
 
 def tolerance_of(sensor: Sensor | None) -> float:
@@ -130,9 +139,7 @@ def _scope(
     return scene_scope(environment, assignment, scene.surfaces.normal, settings, plan)
 
 
-def _worth(
-    situation: Situation, limits: Limits, assignment: Assignment, choice: EffectChoice, sensor: Sensor | None
-) -> dict[str, Bound]:
+def _worth(situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None) -> dict[str, Bound]:
     """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
     bounds = _priced(situation)
     apart = limits.greatest - limits.coldest
@@ -144,9 +151,8 @@ def _worth(
         return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
     factor = 1.0
     if sensor is not None:
-        least = float(assignment.emissivity.min(initial=1.0))
         table = build_band_table(sensor.band)
-        factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest, emissivity=least)
+        factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest)
     return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
 
 

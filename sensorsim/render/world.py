@@ -7,7 +7,7 @@ from datetime import date
 import numpy as np
 
 from sensorsim.effects import EffectChoice, Ledger, Limits
-from sensorsim.environment import Environment, Weather, place_mismatch
+from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, place_mismatch
 from sensorsim.errors import InputError
 from sensorsim.materials import Catalogue
 from sensorsim.render.survey import EVERY_EFFECT, Survey, survey_scene
@@ -51,6 +51,8 @@ def build_world(
     *,
     image_day: date,
     settings: BakeSettings | None = None,
+    visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
     catalogue: Catalogue | None = None,
     progress: Progress | None = None,
     effects: EffectChoice = EVERY_EFFECT,
@@ -58,13 +60,15 @@ def build_world(
 ) -> World:
     """Tables of a scene for one day of the weather; weather of another place or clock is used, with a warning.
 
-    Of the `effects` all are computed unless the choice says otherwise. Those that are left to their bounds are held to
-    the noise of `sensor`, or to that of one that sees surface temperatures.
+    visibility [m] and aerosol, the kind of haze or fog, are those of the air that the scene is seen through. Of the
+    `effects` all are computed unless the choice says otherwise. Those that are left to their bounds are held to the
+    noise of `sensor`, or to that of one that sees surface temperatures.
     """
     settings = BakeSettings() if settings is None else settings
     survey = survey_scene(
-        scene, weather, image_day=image_day, settings=settings, catalogue=catalogue, choice=effects, sensor=sensor
-    )
+        scene, weather, image_day=image_day, settings=settings, visibility=visibility, aerosol=aerosol,
+        catalogue=catalogue, choice=effects, sensor=sensor,
+    )  # fmt: skip
     return world_of(survey, weather, _tables(survey, progress))
 
 

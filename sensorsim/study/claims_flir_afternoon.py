@@ -16,7 +16,7 @@ from sensorsim.study.claims_evidence import (
     Evidence,
     View,
 )
-from sensorsim.study.claims_flir_winter import REFLECTED_COLD, block_and_metal
+from sensorsim.study.claims_flir_winter import block_and_metal
 from sensorsim.study.claims_model import NOTICEABLE, SIGNIFICANT, Claim, Numbers, more
 
 HOURS = (7.0, 10.0, 13.0, 17.0)
@@ -155,8 +155,6 @@ CLAIMS = (
         unit="K",
         measure=partial(block_and_metal, hour=13.0),
         relations=(more("metal", than="block"),),
-        reason=REFLECTED_COLD,
-        instead=(more("block", than="metal"), more("metal surface", than="block surface", by=SIGNIFICANT)),
     ),
     Claim(
         id="17h-washed-out",

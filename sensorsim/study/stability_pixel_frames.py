@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from sensorsim.environment import single_term
 from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Illumination, Picture, Renderer, World
 from sensorsim.render.illumination import SKY_ENTRIES
@@ -93,7 +94,7 @@ def _enclosure(distance: float) -> float:
     radiance = float(build_band_table(load_sensor("flir").band).radiance_at(kelvin))
     light = Illumination(
         sun_direction=np.array([0.0, -0.6, 0.8]), beam=0.0, quadrant=np.zeros(4), sky=np.full(SKY_ENTRIES, radiance),
-        ground_radiance=radiance, air_radiance=radiance, attenuation=2e-4,
+        ground_radiance=radiance, air=single_term(2e-4, radiance),
     )  # fmt: skip
     mesh = card([(0.0, 0.0, 0.01 * distance, distance, 0)])
     planes = look(replace(world, tables=tables), mesh, illumination=light).planes

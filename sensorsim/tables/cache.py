@@ -28,6 +28,7 @@ from sensorsim.thermal.lead_in import lead_in_of
 
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
+_SEEN_ONLY = ("visibility", "aerosol")  # bear on what a sensor sees, not on how warm a wall is
 _ARRAYS = ("time_of_day", "coefficients", "level", "bend", "ground_temperature")
 _LOBES = ("sun", "direction", "weight")
 _CODE = ("constants.py", "effects", "environment", "materials", "thermal", "tables")
@@ -89,6 +90,8 @@ def inputs_digest(
     scope = whole_scope(wall_types, settings) if scope is None else scope
     digest = hashlib.sha256()
     for field in fields(environment):
+        if field.name in _SEEN_ONLY:
+            continue
         value = getattr(environment, field.name)
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())

@@ -33,10 +33,10 @@ def coefficient_glsl(powers: int) -> str:
 def shade_texels(tables: ShadeTables, time_of_day: float) -> dict[str, NDArray[np.float32]]:
     """Texels of all that the shade of a time [s] is made from, by the name of the sampler."""
     moment = tables.at(time_of_day)
-    texels = {"coefficient_table": coefficient_texels(moment.coefficients)}
-    if tables.lobes is not None:
-        texels["lobe_table"] = lobe_texels(moment, tables.lobes.most)
-    return texels
+    return {
+        "coefficient_table": coefficient_texels(moment.coefficients),
+        "lobe_table": lobe_texels(moment, 0 if tables.lobes is None else tables.lobes.most),
+    }
 
 
 def lobe_texels(moment: Moment, most: int) -> NDArray[np.float32]:

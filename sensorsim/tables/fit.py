@@ -43,7 +43,7 @@ def fit_lobes(
     powers = min(2, reflectances.size)
     weight[..., :powers] = fit_polynomials(stretch[:, None, None] * rise, reflectances, powers - 1)
     facing = np.maximum(np.concatenate([sources.sun[:, None], _repeat(sources)], axis=1) @ normal.T, 0.0)
-    lobes = np.einsum("tko,tkp->top", facing, weight, optimize=True)
+    lobes = facing.swapaxes(1, 2) @ weight
     straight = straighten(temperature, level[:, None, None], bend[:, None, None])
     rest = straight - lobes @ np.vander(reflectances, 2, increasing=True).T
     return FittedWall(coefficients=fit_polynomials(rest, reflectances, degree), level=level, bend=bend, weight=weight)

@@ -2,6 +2,7 @@
 
 from sensorsim.thermal.boundary import Inside, Outside
 from sensorsim.thermal.boundary_file import BoundaryFile, read_boundary
+from sensorsim.thermal.construction_march import march_construction
 from sensorsim.thermal.convection import CORRELATIONS
 from sensorsim.thermal.exchange import Exchange, build_exchange
 from sensorsim.thermal.grid import WallGrid, build_grid
@@ -28,7 +29,6 @@ from sensorsim.thermal.season import Season, growing_season_index, season_of
 from sensorsim.thermal.view_factors import ground_view_factor, quadrant_view_factors, sky_view_factor
 from sensorsim.thermal.wall import LONGEST_STEP, WallHistory, WallLoads, exterior_loads, march_wall
 from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, build_wall_boundary
-from sensorsim.thermal.wall_paths import march_construction
 from sensorsim.thermal.wall_start import WallStart
 
 __all__ = [

@@ -1,21 +1,37 @@
 #version 330 core
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
 // plane of [Report1978] section 3.1.3 through its air path.
-// PATH 1: with the air in between, 0: without.
+// PATH 1: with the air in between, 0: without. EMISSIVE 1: thermal bands, 0: reflective bands, whose sky glows around
+// the sun [ISO15469].
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
+#include "generated/illumination_block.glsl"
 #include "generated/sky_radiance.glsl"
+#include "generated/sky_gradation.glsl"
+#include "generated/sky_indicatrix.glsl"
 #include "radiance/path.glsl"
+
+const Metre FARTHEST = 1e9;  // along the horizon; all air is opaque before
 
 in vec2 picture_position;
 
 layout(location = 0) out vec4 quantities;
 layout(location = 1) out int id;
 
+Radiance sky(Direction view) {
+#if EMISSIVE
+    return sky_radiance(view.z);
+#else
+    return sky_radiance(view.z) + sky_gradation(view.z) * sky_indicatrix(dot(view, illumination.sun_direction));
+#endif
+}
+
 Radiance background_radiance(Direction view) {
-    if (view.z >= 0.0) return sky_radiance(view.z);
+    if (view.z >= 0.0) return sky(view);
 #if PATH
-    return apparent_radiance(illumination.ground_radiance, max(view_frame.camera_position.z, 0.0) / -view.z);
+    Metre height = max(view_frame.camera_position.z, 0.0);
+    Metre range = min(height / -view.z, FARTHEST);
+    return apparent_radiance(illumination.ground_radiance, range, -height, mean_extinction(-height), view);
 #else
     return illumination.ground_radiance;
 #endif
