@@ -53,7 +53,7 @@ def test_choice_is_read_and_written(text: str, wanted: set[str], refused: set[st
         ("some", "begin with one of auto, all, none"),
         ("", "begin with one of"),
         ("auto,rain", "has no sign"),
-        ("+specular", "use one of .*direct_sun"),
+        ("+shadows", "use one of .*direct_sun"),
         ("-noise", "unknown or not modelled"),
         ("+rain,-rain", "on and off at once"),
     ],
@@ -111,7 +111,7 @@ def test_all_and_none_are_all_and_none() -> None:
 def test_plans_are_equal_whatever_the_order_and_refuse_unknown_names() -> None:
     assert EffectPlan(off=("snow", "rain")) == EffectPlan(off=("rain", "snow", "rain"))
     with pytest.raises(InputError, match="unknown or not modelled"):
-        EffectPlan().has("specular")
+        EffectPlan().has("shadows")
 
 
 def test_choice_of_a_base_that_is_none_is_refused() -> None:

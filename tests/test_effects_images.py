@@ -15,7 +15,7 @@ from sensorsim.effects import DEFAULT_NOISE, NOISE_SHARE, EffectChoice, EffectPl
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
 from sensorsim.render import EVERY_EFFECT, Camera, Renderer, World, build_world, look_at, station_camera
-from sensorsim.render.variants import all_plans, all_surface_defines, background_defines, surface_defines
+from sensorsim.render.variants import all_plans, surface_defines
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import load_sensor
 from sensorsim.study.gallery import FIGURES
@@ -27,6 +27,7 @@ COARSE = BakeSettings(
     orientations="report10", reflectances=(0.1, 0.5, 0.9), degree=2, step=1800.0, slice_interval=3600.0,
     lead_in_days=1.0,
 )  # fmt: skip
+LOBED = BakeSettings(orientations="icosphere42", step=1200.0, slice_interval=3600.0, lead_in_days=1.0)
 FINER = replace(COARSE, orientations="icosphere42")
 AUTO = EffectChoice(base="auto")
 SIZE = (96, 72)
@@ -141,17 +142,26 @@ def test_short_paths_and_black_surfaces_are_drawn_without_air_and_mirrors(tmp_pa
         assert (plan.has("atmosphere"), plan.has("reflected_sky")) == (air, mirrors)
 
 
-def test_sun_is_in_the_low_light_band_by_day_alone(tmp_path: Path) -> None:
+def test_sun_is_in_the_low_light_band_by_day_and_neither_it_nor_the_moon_before_dawn(tmp_path: Path) -> None:
     camera = look_at([0.0, -150.0, 40.0], [0.0, 0.0, 5.0], 40.0)
     with Renderer(town(tmp_path, "auto", "lltv"), load_sensor("lltv"), size=SIZE) as renderer:
         assert renderer.render(camera, 43200.0).ledger.plan.has("reflected_sun")
-        assert not renderer.render(camera, 0.0).ledger.plan.has("reflected_sun")
+        assert renderer.render(camera, 0.0).illumination.beam > 0.0, "the moon is up at midnight"
+        assert not renderer.render(camera, 18000.0).ledger.plan.has("reflected_sun")
 
 
-@pytest.mark.parametrize("left_out", ["atmosphere", "reflected_sky"])
-def test_bound_of_an_effect_of_the_frame_is_above_what_it_changes(left_out: str, tmp_path: Path) -> None:
+ABOVE, ACROSS = (
+    look_at([0.0, -150.0, 40.0], [0.0, 0.0, 5.0], 40.0),
+    look_at([60.0, -80.0, 9.0], [60.0, 40.0, 9.0], 40.0),
+)
+
+
+@pytest.mark.parametrize("camera", [ABOVE, ACROSS])
+@pytest.mark.parametrize("left_out", ["atmosphere", "reflected_sky", "specular"])
+def test_bound_of_an_effect_of_the_frame_is_above_what_it_changes(
+    left_out: str, camera: Camera, tmp_path: Path
+) -> None:
     pictures: list[NDArray[np.float64]] = []
-    camera = look_at([0.0, -150.0, 40.0], [0.0, 0.0, 5.0], 40.0)
     for choice in ("all", f"all,-{left_out}"):
         with Renderer(town(tmp_path, choice), load_sensor("flir"), size=SIZE) as renderer:
             picture = renderer.render(camera, 36000.0)
@@ -160,18 +170,59 @@ def test_bound_of_an_effect_of_the_frame_is_above_what_it_changes(left_out: str,
     assert TOLERANCE < change <= picture.ledger.row(left_out).bound
 
 
-def test_programs_of_all_plans_are_few_and_compile(tmp_path: Path) -> None:
-    """Twelve for surfaces, two for the background, one for the display."""
-    variants = all_surface_defines(lobes=True)
-    backgrounds = [background_defines(EffectPlan()), background_defines(EffectPlan(off=("atmosphere",)))]
-    assert len(variants) + len(backgrounds) + 1 <= 16
-    assert surface_defines(EffectPlan(), emissive=True, lobes=True) in variants
+@pytest.mark.parametrize("atmosphere", ["standard", "report", "none"])
+@pytest.mark.parametrize("sensor", ["flir", "lltv"])
+def test_bound_of_the_air_is_above_what_it_changes_in_fog_and_none(
+    atmosphere: str, sensor: str, tmp_path: Path
+) -> None:
+    scene, weather = load_scene(write_town(tmp_path, town_features())), read_weather("winter")
+    plane = "radiance" if sensor == "lltv" else "apparent_temperature"
+    for visibility in (300.0, 50000.0):
+        pictures = []
+        for choice in ("all", "all,-atmosphere"):
+            baked = build_world(
+                scene, weather, image_day=DAYS["winter"], settings=COARSE, visibility=visibility,
+                effects=read_choice(choice), sensor=load_sensor(sensor),
+            )  # fmt: skip
+            with Renderer(baked, load_sensor(sensor), size=SIZE, atmosphere=atmosphere) as renderer:
+                pictures.append(renderer.render(ACROSS, 36000.0))
+        change = float(np.abs(pictures[0].planes[plane] - pictures[1].planes[plane]).max())
+        bound = pictures[1].ledger.row("atmosphere").bound
+        assert change <= bound * (1.0 + 1e-6)
+        assert (change > 0.0) == (bound > 0.0) == (atmosphere != "none")
+
+
+def test_mirrors_are_drawn_where_a_glossy_surface_may_be_in_view_alone(tmp_path: Path) -> None:
+    baked = town(tmp_path, "auto")  # with a hall of sheet metal, a mast, walls of brick and a lawn
+    lawn = look_at([-150.0, 150.0, 30.0], [-150.0, 170.0, 0.0], 20.0)
+    with Renderer(baked, load_sensor("flir"), size=SIZE) as renderer:
+        found = [renderer.render(camera, 36000.0).ledger for camera in (ABOVE, lawn)]
+    assert [ledger.plan.has("specular") for ledger in found] == [True, False]
+    assert found[1].row("specular").bound == 0.0
+
+
+def test_every_pixel_from_tables_with_lobes_is_within_tolerance_of_all_effects(tmp_path: Path) -> None:
+    """The default bake."""
+    with Renderer(town(tmp_path, "all", settings=BakeSettings()), load_sensor("flir"), size=SIZE) as full, Renderer(
+        town(tmp_path, "auto", settings=BakeSettings()), load_sensor("flir"), size=SIZE
+    ) as lean:  # fmt: skip
+        assert full.world.tables.lobes is not None
+        for hour in (6.0, 10.0, 14.5):
+            compare(full, lean, ACROSS, hour)
+
+
+def test_programs_of_all_plans_are_sixteen_at_most_and_compile(tmp_path: Path) -> None:
+    """Ten for surfaces of both kinds of band, with lobes or without, four for the background, two for the display."""
+    drawn: set[tuple[str, tuple[tuple[str, int], ...]]] = set()
     for sensor in ("flir", "lltv"):
-        with Renderer(town(tmp_path, "all"), load_sensor(sensor), size=SIZE) as renderer, renderer.ctx:
-            programs = renderer._programs
-            for plan in all_plans():
-                programs.surfaces(plan)
-                programs.background(plan)
-            drawn = [name for name, _ in programs.built]
-            assert drawn.count("surfaces") == sum(d["EMISSIVE"] == (sensor == "flir") for d in variants)
-            assert drawn.count("background") == len(backgrounds)
+        for settings in (COARSE, LOBED):
+            with Renderer(town(tmp_path, "all", settings=settings), load_sensor(sensor), size=SIZE) as renderer:
+                with renderer.ctx:
+                    for plan in all_plans():
+                        renderer._programs.surfaces(plan)
+                        renderer._programs.background(plan)
+                drawn |= set(renderer._programs.built)
+    shown = 2  # a straight line, and a curve of tones
+    assert len(drawn) + shown <= 16
+    told = [surface_defines(EffectPlan(), emissive=emissive) for emissive in (False, True)]
+    assert all(("surfaces", tuple(defines.items())) in drawn for defines in told)

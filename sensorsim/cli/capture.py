@@ -5,7 +5,7 @@ import multiprocessing
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -29,6 +29,8 @@ from sensorsim.cli.options import (
 )
 from sensorsim.cli.render import read_camera
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.effects import EffectChoice
+from sensorsim.environment import Weather
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import CameraPath, read_camera_path
 from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
@@ -36,6 +38,7 @@ from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import Sensor, load_sensor
+from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
 
 FORMATS = ("png", "exr", "npy", "tiff")
@@ -95,14 +98,8 @@ def capture(
     choice = read_effects(effects, names)
     found = find_weather(weather, local_day(moment, place.site.utc_offset))
     day = local_day(moment, found.site.utc_offset)
-    with bake_progress("baking") as progress:
-        worlds = [  # one for each sensor: what may be left out depends on its noise
-            build_world(
-                place, found, image_day=day, settings=bake_preset(preset), progress=progress, effects=choice,
-                sensor=device,
-            )
-            for device in devices
-        ]  # fmt: skip
+    settings = bake_preset(preset)
+    worlds = [_world(place, found, day, settings, choice, device) for device in devices]
     shots = _shots(route, moment, worlds[0])
     make_folder(out)
     options = SequenceOptions(folder=out, planes=names, plane_format=plane_format, suffix=f".{file_format}")
@@ -119,6 +116,16 @@ def capture(
         target = out / f"{device.name}.{video}"
         write_video([frame_path(options, device, shot.number) for shot in shots], target, video_rate)
         Console(soft_wrap=True).print(f"wrote {target}", markup=False, highlight=False)
+
+
+def _world(
+    scene: Scene, weather: Weather, day: date, settings: BakeSettings, choice: EffectChoice, sensor: Sensor
+) -> World:
+    """The scene for one sensor: what may be left out depends on its noise."""
+    with bake_progress("baking") as progress:
+        return build_world(
+            scene, weather, image_day=day, settings=settings, progress=progress, effects=choice, sensor=sensor
+        )
 
 
 def _check(jobs: int, every: float, file_format: str, video: str | None) -> None:

@@ -50,7 +50,7 @@ EFFECTS = (
     _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
     _frame("reflected_sky", "sky and ground mirrored by surfaces", "no mirrored part", "emissive"),
     _frame("specular", "mirrors: emissivity by angle, and what lies that way", "matt surfaces", "emissive"),
-    _frame("reflected_sun", "sunlight in band from surfaces", _DARK, "reflective"),
+    _frame("reflected_sun", "light in band straight from sun or moon, from surfaces", _DARK, "reflective"),
     _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
 )  # fmt: skip
 SUNLIGHT = ("direct_sun", *(effect.name for effect in EFFECTS if effect.sky is not None), "ground_sun")

@@ -105,10 +105,9 @@ def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     sky = 4.0 * float(look.quadrant.max()) * 0.5 * (1.0 + look.normal[:, 2])
     ground = PI * look.ground_radiance * 0.5 * (1.0 - look.normal[:, 2])
     brightest = direct + float(np.max(share * (sky + ground), initial=0.0))
+    lit = "sun or moon lights surfaces" if direct > 0.0 else "neither sun nor moon"
     return {
-        "reflected_sun": Bound(
-            value=direct, reason="the sun lights surfaces" if direct > 0.0 else "no sun", saves=pixel_cost(look.pixels)
-        ),
+        "reflected_sun": Bound(value=direct, reason=lit, saves=pixel_cost(look.pixels)),
         "atmosphere": _air(look, 0.0, brightest, None),
     }
 
