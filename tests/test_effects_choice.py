@@ -54,7 +54,7 @@ def test_choice_is_read_and_written(text: str, wanted: set[str], refused: set[st
         ("", "begin with one of"),
         ("auto,rain", "has no sign"),
         ("+shadows", "use one of .*direct_sun"),
-        ("-noise", "unknown or not modelled"),
+        ("-glint", "unknown or not modelled"),
         ("+rain,-rain", "on and off at once"),
     ],
 )

@@ -20,6 +20,7 @@ from sensorsim.effects.frame_bounds import (
 )
 from sensorsim.effects.ledger import DEFAULT_NOISE, NOISE_SHARE, Bound, Ledger, LedgerRow, decide
 from sensorsim.effects.plan import EVERYTHING, EffectPlan
+from sensorsim.effects.sensor_bounds import sensor_bounds, signal_tolerance
 from sensorsim.effects.surface_bounds import QUARTERS, Situation, surface_bounds
 
 __all__ = [
@@ -52,6 +53,8 @@ __all__ = [
     "read_choice",
     "reflective_bounds",
     "reflective_tolerance",
+    "sensor_bounds",
+    "signal_tolerance",
     "surface_bounds",
     "temperature_limits",
     "term_cost",

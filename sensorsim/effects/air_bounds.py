@@ -28,6 +28,11 @@ class AirBefore:
         """Least radiance [W m-2 sr-1] of any endless path through it."""
         return float(self._glow((*self.surface_heights, 0.0))[0].min())
 
+    @property
+    def brightest(self) -> float:
+        """Greatest radiance [W m-2 sr-1] of any endless path through it."""
+        return float(self._glow((*self.surface_heights, 0.0))[1].max())
+
     def change(self, dimmest: float, brightest: float) -> float:
         """Greatest change [W m-2 sr-1] of surfaces whose radiance is between these."""
         return self._change(dimmest, brightest, self.longest_range, self.surface_heights)

@@ -15,6 +15,7 @@ class Effect:
     without: str  # what the model does then
     sky: str | None = None  # needs this model of the sky
     mode: str | None = None  # needs a sensor of this mode
+    part: bool = False  # needs a sensor that has this in its chain
 
 
 def _surface(name: str, meaning: str, without: str, sky: str | None = None, mode: str | None = None) -> Effect:
@@ -23,6 +24,10 @@ def _surface(name: str, meaning: str, without: str, sky: str | None = None, mode
 
 def _frame(name: str, meaning: str, without: str, mode: str | None = None) -> Effect:
     return Effect(name=name, stage=FRAME, meaning=meaning, without=without, mode=mode)
+
+
+def _part(name: str, meaning: str, without: str) -> Effect:
+    return Effect(name=name, stage=FRAME, meaning=meaning, without=without, part=True)
 
 
 _DARK = "no light from there"
@@ -52,6 +57,11 @@ EFFECTS = (
     _frame("specular", "mirrors: emissivity by angle, and what lies that way", "matt surfaces", "emissive"),
     _frame("reflected_sun", "light in band straight from sun or moon, from surfaces", _DARK, "reflective"),
     _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
+    _part("blur", "optics, motion and size of the detector", "each pixel sees its middle"),
+    _part("noise", "noise and fixed pattern of the detector, and its dead elements", "light and counts alone"),
+    _part("memory", "what the detector keeps of the last picture", "each picture on its own"),
+    _part("streaks", "a channel's level, lost by coupling", "all levels as they are"),
+    _part("halo", "discs of light around bright lights", "none"),
 )  # fmt: skip
 SUNLIGHT = ("direct_sun", *(effect.name for effect in EFFECTS if effect.sky is not None), "ground_sun")
 NAMES = tuple(effect.name for effect in EFFECTS)
@@ -59,14 +69,14 @@ BY_NAME = {effect.name: effect for effect in EFFECTS}
 
 # What no setting can switch on.
 NOT_MODELLED = (
-    "specular reflection: all surfaces are Lambertian",
     "cast shadows, and surfaces in each other's way, except by the optional exchange",
+    "mirrors outside of 8-14 um, so no glint of the sun; and surfaces in each other's mirrors",
     "conduction along a wall, and across its edges",
-    "blur by motion",
-    "scattering of sunlight along the path in emissive bands, and turbulence of the air",
-    "a path's own temperature and humidity aloft: the air is that of the station",
-    "moonlight, lamps and fires",
+    "blur by motion of the camera or of what it sees, beyond the sensor's own jitter and drift",
+    "scattering of sunlight along the path in emissive bands, turbulence, and polarisation",
+    "weather aloft: above the station the air thins out and cools as in the standard atmosphere",
+    "lamps and fires",
     "plumes, vehicles and people",
     "wind that buildings turn aside",
-    "water that runs, ponds or freezes on surfaces",
+    "water that runs, ponds or freezes on surfaces, and snow on roofs and trees",
 )

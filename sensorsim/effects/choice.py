@@ -1,6 +1,6 @@
 """What a user asks for: auto, all or none of the effects, and single ones on or off."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from sensorsim.effects.catalogue import BY_NAME, SURFACE, Effect
@@ -52,10 +52,13 @@ class EffectChoice:
         """Whether surface temperatures are asked for: as such, or by a term of theirs."""
         return self.asked("temperature") is True or any(BY_NAME[name].stage == SURFACE for name in self.wanted)
 
-    def require_inputs(self, *, sky: str, mode: str) -> None:
-        """Refuse effects asked for by name whose inputs are missing: another sky, another kind of sensor."""
+    def require_inputs(self, *, sky: str, mode: str, parts: Collection[str] | None = None) -> None:
+        """Refuse effects asked for by name whose inputs are missing: another sky, kind of sensor, or part of it.
+
+        `parts` of the sensor's chain; None where no sensor is chosen yet.
+        """
         for name in sorted(self.wanted - {"temperature"}):
-            missing = _missing(BY_NAME[name], sky, mode)
+            missing = _missing(BY_NAME[name], sky, mode, BY_NAME if parts is None else parts)
             if missing is not None:
                 raise InputError("effects", "choice", f"+{name}", f"its inputs are missing: {missing}", "leave it out")
         if mode == "emissive" and "temperature" in self.refused:
@@ -63,7 +66,9 @@ class EffectChoice:
             raise InputError("effects", "choice", "-temperature", problem, "leave it on, or take a reflective sensor")
 
 
-def _missing(effect: Effect, sky: str, mode: str) -> str | None:
+def _missing(effect: Effect, sky: str, mode: str, parts: Collection[str]) -> str | None:
+    if effect.part and effect.name not in parts:
+        return f"needs a sensor whose chain has {effect.name}"
     if effect.sky is not None and effect.sky != sky:
         return f"needs the sky '{effect.sky}', the bake has '{sky}'"
     if effect.mode is not None and effect.mode != mode:
@@ -71,9 +76,9 @@ def _missing(effect: Effect, sky: str, mode: str) -> str | None:
     return None
 
 
-def applicable(effects: Iterable[Effect], *, sky: str, mode: str) -> tuple[Effect, ...]:
+def applicable(effects: Iterable[Effect], *, sky: str, mode: str, parts: Collection[str] = ()) -> tuple[Effect, ...]:
     """The effects whose inputs are there."""
-    return tuple(effect for effect in effects if _missing(effect, sky, mode) is None)
+    return tuple(effect for effect in effects if _missing(effect, sky, mode, parts) is None)
 
 
 def read_choice(text: str) -> EffectChoice:

@@ -7,12 +7,14 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.constants import PI
 from sensorsim.effects import (
     EFFECTS,
     FRAME,
     AirBefore,
     EffectChoice,
     Ledger,
+    LedgerRow,
     Limits,
     Look,
     Mirrors,
@@ -21,6 +23,8 @@ from sensorsim.effects import (
     emissive_bounds,
     reflective_bounds,
     reflective_tolerance,
+    sensor_bounds,
+    signal_tolerance,
 )
 from sensorsim.radiometry import BandTable, build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE
@@ -32,7 +36,7 @@ from sensorsim.render.surface_table import surface_codes
 from sensorsim.render.survey import Survey, tolerance_of
 from sensorsim.render.world import World
 from sensorsim.scene import Scene
-from sensorsim.sensor import Sensor
+from sensorsim.sensor import Sensor, sensitivity, sensor_parts
 from sensorsim.tables import surface_temperature
 from sensorsim.tables.assign import Assignment
 from sensorsim.thermal import ground_temperature
@@ -80,7 +84,27 @@ def frame_ledger(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
             tolerance=tolerance_of(sensor), unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
-    return decided.ledger.with_rows(rows)
+    return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table, illumination)))
+
+
+def _chain_rows(
+    choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None, illumination: Illumination
+) -> tuple[LedgerRow, ...]:
+    """Rows of the parts of a sensor's chain; none for an ideal sensor."""
+    parts = sensor_parts(sensor)
+    if not parts:
+        return ()
+    if table is None:
+        glow = illumination.glow
+        lit = (look.beam + 4.0 * float(look.quadrant.sum())) / PI + look.ground_radiance
+        brightest = lit + look.sky_range[1] + look.air.brightest
+        brightest += 0.0 if glow is None else float(glow.gradation.max() * glow.indicatrix.max())
+    else:
+        brightest = float(table.radiance[-1])  # a frame beyond is refused
+    state = sensitivity(sensor)
+    bounds = sensor_bounds(parts, state, brightest=brightest, pixels=look.pixels)
+    effects = tuple(effect for effect in EFFECTS if effect.name in parts)
+    return decide(effects, bounds, choice, tolerance=signal_tolerance(state), unit="W m-2 sr-1")
 
 
 def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:

@@ -25,18 +25,20 @@ from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
+    SHARP,
     TONE_ENTRIES,
     DisplaySettings,
-    Sensitivity,
     Sensor,
+    exposure_for,
     fix_window,
+    sensor_parts,
+    sensor_without,
     tone_curve,
     window_limits,
 )
 from sensorsim.tables import LookupTable
 
 _BLOCKS = (VIEW_FRAME, AIR, DISPLAY)
-FILLED = 0.8  # of the detector's range, that an automatic iris aims at
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
 
@@ -150,8 +152,10 @@ class Renderer:
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
         if self.sensor.detector is not None:
-            energy = self.blur_energy
-            self._chain = SensorChain(ctx, self.sensor, self.size, samples=self.samples, energy=energy)
+            off = {part for part in sensor_parts(self.sensor) if self.world.choice.asked(part) is False}
+            energy = SHARP if "blur" in off else self.blur_energy
+            chosen = sensor_without(self.sensor, off)
+            self._chain = SensorChain(ctx, chosen, self.size, samples=self.samples, energy=energy)
         self._target = render_target(ctx, drawn, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
@@ -235,12 +239,6 @@ def seen_with(illumination: Illumination, plan: EffectPlan) -> Illumination:
     if not plan.has("atmosphere"):
         illumination = replace(illumination, air=clear_path())
     return illumination if plan.has("reflected_sun") else replace(illumination, beam=0.0)
-
-
-def exposure_for(look: Sensitivity, radiance: NDArray[np.float32]) -> float:
-    """Share of the light that keeps all but a hundredth of the pixels below FILLED of what the detector holds."""
-    bright = float(np.quantile(radiance, 0.99))
-    return min(1.0, FILLED * look.full / bright) if bright > 0.0 else 1.0
 
 
 def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:

@@ -25,7 +25,7 @@ from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, buil
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.radiometry import build_band_table
 from sensorsim.scene import Scene
-from sensorsim.sensor import Sensor, netd
+from sensorsim.sensor import Sensor, netd, sensor_parts
 from sensorsim.tables import BakeSettings, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.faces import ground_face, scene_faces
@@ -76,7 +76,7 @@ def survey_scene(
     catalogue = load_catalogue() if catalogue is None else catalogue
     mode = "emissive" if sensor is None else sensor.mode
     choice = _with_exchange(choice, settings)
-    choice.require_inputs(sky=settings.sky, mode=mode)
+    choice.require_inputs(sky=settings.sky, mode=mode, parts=None if sensor is None else sensor_parts(sensor))
     lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
     environment = build_environment(
         weather, image_day=image_day, lead_in_days=lead_in, step=settings.step, visibility=visibility, aerosol=aerosol

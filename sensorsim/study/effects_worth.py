@@ -92,7 +92,8 @@ def measure_effects(
 ) -> list[EffectWorth]:  # fmt: skip
     """Worth of each effect that the settings' sky has."""
     settings = STUDY if settings is None else settings
-    found = [EffectWorth(effect=effect.name) for effect in EFFECTS if effect.sky in (None, settings.sky)]
+    drawn = [effect for effect in EFFECTS if not effect.part]  # the images are those of ideal sensors
+    found = [EffectWorth(effect=effect.name) for effect in drawn if effect.sky in (None, settings.sky)]
     worlds = sorted({(figure.level, day) for figure in FIGURES for day, _ in figure.moments}, reverse=True)
     for done, (level, day) in enumerate(worlds):
         place = _Place(level=level, day=day, settings=settings, size=size, backend=backend)
