@@ -11,13 +11,20 @@ import pytest
 
 from sensorsim.environment import build_environment, read_weather
 from sensorsim.errors import InputError
-from sensorsim.materials import Catalogue, Coverage, WallPart, WallType, component_shares, load_catalogue
-from sensorsim.materials.mixture import part_reflectance
+from sensorsim.materials import (
+    Catalogue,
+    Coverage,
+    WallPart,
+    WallType,
+    component_shares,
+    load_catalogue,
+    part_reflectances,
+)
 from sensorsim.radiometry import FLIR_BAND, build_band_table
 from sensorsim.scene import load_scene
 from sensorsim.tables import BakeSettings, bake_tables, surface_temperature
 from sensorsim.tables.assign import assign_wall_types
-from sensorsim.tables.mixture import mix_temperatures
+from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
 
 BLOCKS = (30, 31, 32, 33)
 COVERAGES = [Coverage(roof=roof, tree=tree) for roof, tree in product((None, 0.0, 0.3, 1.0), (None, 0.0, 0.3, 0.8))]
@@ -74,7 +81,7 @@ def test_reflectances_of_the_parts_average_to_the_word(catalogue: Catalogue) -> 
         parts = catalogue.wall_type(code, "heated").parts
         mean = sum(part.share * part.reflectance for part in parts)
         for word in (0.0, 0.1, mean, 0.45, 0.99, 1.0):
-            own = [part_reflectance(part.reflectance, mean, word) for part in parts]
+            own = part_reflectances([part.reflectance for part in parts], [part.share for part in parts], [word])[:, 0]
             assert all(-1e-12 <= value <= 1.0 + 1e-12 for value in own)
             assert sum(part.share * value for part, value in zip(parts, own, strict=True)) == pytest.approx(word)
 
@@ -113,9 +120,9 @@ def test_the_bake_mixes_what_it_solves_for_the_components(catalogue: Catalogue) 
     count = normal.shape[0]
     for word, hour in product((0.1, 0.3, 0.9), (8.0, 12.0)):
         fourth = np.zeros(count)
-        mean = sum(part.share * part.reflectance for part in made.parts)
+        own_reflectances = mixed_reflectances(made, np.array([word]))[:, 0]
         for row, part in enumerate(made.parts, start=1):
-            own_reflectance = np.full(count, part_reflectance(part.reflectance, mean, word))
+            own_reflectance = np.full(count, own_reflectances[row - 1])
             shade = surface_temperature(tables, normal, np.full(count, row), own_reflectance, 3600.0 * hour)
             fourth += part.share * part.wall.emissivity / made.emissivity * shade**4
         block_shade = surface_temperature(tables, normal, np.zeros(count, int), np.full(count, word), 3600.0 * hour)
@@ -154,3 +161,13 @@ def test_a_mixture_that_cannot_be_is_refused(tmp_path: Path, mixture: str, probl
     (tmp_path / "own.toml").write_text(wall + "[[material]]\ncode = 2\n" + plain + f"mixture = {mixture}\n")
     with pytest.raises(InputError, match=problem):
         load_catalogue(tmp_path)
+
+
+def test_reflectances_of_the_parts_go_smoothly_with_the_word_and_are_their_own_at_the_mean() -> None:
+    own, share = [0.1, 0.35, 0.8], [0.5, 0.3, 0.2]
+    mean = float(np.dot(own, share))
+    np.testing.assert_allclose(part_reflectances(own, share, np.array([mean]))[:, 0], own, atol=1e-9)
+    words = np.linspace(0.01, 0.99, 981)
+    slope = np.diff(part_reflectances(own, share, words), axis=1) / np.diff(words)
+    assert slope.min() > 0.0
+    assert np.abs(np.diff(slope, axis=1)).max() < 0.02  # a kink would step by 0.3

@@ -16,7 +16,7 @@ from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
 from sensorsim.tables.history import solve_histories
 from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
-from sensorsim.tables.mixture import mix_rises, mix_temperatures, part_reflectances
+from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
@@ -125,7 +125,7 @@ class _Bake:
         """Fit any wall type, from its parts where it is mixed."""
         refl = self.reflectances
         degree = min(self.settings.degree, refl.size - 1)
-        own = part_reflectances(wall, refl) if wall.parts else refl[None]
+        own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
         plain = [solved[part] for part in plain_walls(wall)]
         parts = [
             _at(history.temperature, refl, row) if wall.parts else history.temperature

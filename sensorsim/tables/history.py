@@ -7,8 +7,8 @@ import numpy as np
 
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
-from sensorsim.materials import WallType, part_reflectance
-from sensorsim.tables.mixture import mix_temperatures, part_reflectances
+from sensorsim.materials import WallType
+from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
@@ -29,6 +29,7 @@ def wall_history(
     lead_in: LeadIn,
     cell_size: float = 1.0,
     plan: EffectPlan = EVERYTHING,
+    stride: int = 1,
 ) -> FloatArray:
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
     inside = inside_of(environment, wall, plan)
@@ -38,7 +39,7 @@ def wall_history(
     history = march_paths(
         wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
         step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
-        repeated=lead_in.repeated, cell_size=cell_size,
+        repeated=lead_in.repeated, cell_size=cell_size, stride=stride,
     )  # fmt: skip
     if water and wall.cover is not None:
         return cool_skin(history.exterior, outside, record, wall.cover)
@@ -70,14 +71,14 @@ def solve_histories(
     if wall.parts:
         parts = [
             solve_histories(environment, exposure, part.wall, own, record, settings=settings, plan=plan)
-            for part, own in zip(wall.parts, part_reflectances(wall, reflectances), strict=True)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectances), strict=True)
         ]
         return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
     return wall_history(
         environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size,
-        plan=plan,
+        stride=settings.lead_in_stride, plan=plan,
     )  # fmt: skip
 
 
@@ -109,14 +110,11 @@ def _surfaces_of(
 ) -> FloatArray:  # fmt: skip
     """Temperatures (t, m) [K] of surfaces of one wall type; those of a mixture are joined as `mixture` does."""
     if wall.parts:
-        mean = sum(part.share * part.reflectance for part in wall.parts)
-        total = sum(part.share * part.wall.emissivity for part in wall.parts)
-        fourth = np.zeros(exposure.irradiance.shape)
-        for part in wall.parts:
-            own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectance])
-            temperature = _surfaces_of(environment, exposure, part.wall, own, settings, plan)
-            fourth += part.share * part.wall.emissivity / total * temperature**4
-        return np.asarray(fourth**0.25)
+        parts = [
+            _surfaces_of(environment, exposure, part.wall, own, settings, plan)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectance), strict=True)
+        ]
+        return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
     count, stride = environment.time.size, round(settings.slice_interval / environment.step)

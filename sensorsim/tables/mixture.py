@@ -10,16 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sensorsim.materials import WallType, part_reflectance
+from sensorsim.materials import WallType, part_reflectances
 from sensorsim.tables.orientations import FloatArray
 
 
-def part_reflectances(wall: WallType, reflectances: FloatArray) -> FloatArray:
+def mixed_reflectances(wall: WallType, reflectances: FloatArray) -> FloatArray:
     """Solar reflectances (parts, r) of the components of a mixed wall type where it has `reflectances` (r,)."""
-    mean = sum(part.share * part.reflectance for part in wall.parts)
-    return np.array(
-        [[part_reflectance(part.reflectance, mean, float(value)) for value in reflectances] for part in wall.parts]
-    )
+    own, share = [part.reflectance for part in wall.parts], [part.share for part in wall.parts]
+    return part_reflectances(own, share, reflectances)
 
 
 def mix_temperatures(wall: WallType, temperature: Sequence[FloatArray]) -> FloatArray:
