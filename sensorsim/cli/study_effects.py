@@ -39,7 +39,7 @@ def effects(
         return
     table = Table(title=f"What each effect is worth on {image_count()} images of the report", title_justify="left")
     for title in HEAD:
-        table.add_column(title, justify="left" if title == HEAD[0] else "right")
+        table.add_column(title, justify="left" if title == HEAD[0] else "right", no_wrap=title == HEAD[0])
     for worth in found:
         table.add_row(*(cell if isinstance(cell, str) else f"{cell:.3g}" for cell in row(worth)))
     Console(highlight=False, markup=False).print(table)
