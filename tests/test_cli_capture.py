@@ -91,6 +91,21 @@ def test_capture_is_the_same_from_one_process_and_from_two(tmp_path: Path, monke
     assert len(digests(tmp_path / "1")) == 6
 
 
+def test_capture_goes_on_with_the_same_effects_and_draws_anew_with_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    words = ("--at", AT, "--camera", "-60,-80,40,40,-12", "--size", "32x24", "--preset", "report")
+    told = []
+    for effects in ("auto", "auto", "all,-atmosphere", "all,-atmosphere"):
+        assert run(monkeypatch, "capture", scene, *words, "--effects", effects, "--out", tmp_path / "kept") == 0
+        told.append(capsys.readouterr().err.split()[0])
+    assert told == ["1", "0", "1", "0"]
+    settings = json.loads((tmp_path / "kept" / "flir_000000.json").read_text())["settings"]
+    assert not {row["effect"]: row["on"] for row in settings["effects"]}["atmosphere"]
+    assert settings["atmosphere"]["coefficient_per_m"] == [0.0]
+
+
 def test_capture_through_the_day_makes_a_video(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = write_town(tmp_path, town_features())
     words = ("--at", AT, "--until", "1976-02-07T11:00", "--every", "1200", "--size", "32x24", "--preset", "report")

@@ -16,7 +16,7 @@ from sensorsim.frames import capture, read_plane, take_frame
 from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
 from sensorsim.materials import load_catalogue
 from sensorsim.render import Renderer, World, station_camera
-from sensorsim.render.world import ground_plane
+from sensorsim.render.survey import ground_plane
 from sensorsim.sensor import load_sensor
 from sensorsim.tables import bake_tables, preset, surface_temperature
 from sensorsim.tables.full_solve import distinct_surfaces, fine_environment, fine_settings, solve_surfaces

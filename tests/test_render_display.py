@@ -8,7 +8,7 @@ from small_world import town
 
 from sensorsim.errors import InputError
 from sensorsim.render import Renderer, look_at
-from sensorsim.render.renderer import exposed
+from sensorsim.render.picture import exposed
 from sensorsim.sensor import DisplaySettings, Noise, display_code, load_sensor, sensitivity, tone_curve, window_limits
 
 SIZE = (64, 48)

@@ -52,8 +52,8 @@ def test_shading_once_a_surface_is_shading_every_pixel(
     quick = renderer.render(VIEWS[view], time, planes=("display",))
     whole = renderer.render(VIEWS[view], time)
     drawn = renderer.render(VIEWS[view], time, planes=("display",))
-    rows = renderer._rows
-    assert rows is not None
+    assert renderer._quick is not None
+    rows = renderer._quick.rows
     np.testing.assert_array_equal(rows.marked, whole.planes["surface_id"] < 0)
     if renderer.band_table is None:
         assert rows.light == pytest.approx(whole.planes["radiance"], rel=1e-6)

@@ -40,15 +40,18 @@ def _light(**changes: Any) -> dict[str, Any]:
 def _shade(
     ctx: moderngl.Context, coefficients: np.ndarray, inputs: Mapping[str, np.ndarray], moment: Moment | None = None
 ) -> np.ndarray:
-    most = 0 if moment is None else moment.direction.shape[0] + 2
-    textures = {"coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients))}
-    if moment is not None:
-        textures["lobe_table"] = float_table(ctx, "lobe_table", lobe_texels(moment, most))
+    if moment is None:  # no lobes
+        nothing, none = np.zeros(coefficients.shape[0]), np.zeros((coefficients.shape[0], 0, 2))
+        moment = Moment(coefficients=coefficients, level=nothing, bend=nothing, direction=np.zeros((0, 3)), weight=none)
+    most = moment.direction.shape[0] + 2
+    textures = {
+        "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
+        "lobe_table": float_table(ctx, "lobe_table", lobe_texels(moment, most)),
+    }
     result = evaluate(
         ctx, "surface_temperature(wall_type, corner.xyz, weight, reflectance, normal)", inputs,
         include=["radiance/shade.glsl"],
         generated={"coefficients": coefficient_glsl(coefficients.shape[-1])},
-        defines={"LOBES": int(moment is not None)},
         tables=textures,
     )  # fmt: skip
     for texture in textures.values():
@@ -69,7 +72,7 @@ def test_shaded_temperature_is_its_twin_within_five_millikelvin(
     padded = np.column_stack([corner, np.zeros(COUNT, dtype=np.int64)])
     inputs = {"wall_type": wall, "corner": padded, "weight": weight, "reflectance": reflectance, "normal": normal}
     moment = baked.at(time)
-    shaded = _shade(ctx, moment.coefficients, inputs, moment if baked.lobes is not None else None)
+    shaded = _shade(ctx, moment.coefficients, inputs, moment)
     assert np.abs(shaded - surface_temperature(baked, normal, wall, reflectance, time)).max() < 5e-4
 
 

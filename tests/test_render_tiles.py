@@ -51,7 +51,7 @@ def _frame(world: World, view: Camera, monkeypatch: pytest.MonkeyPatch, per_tile
     monkeypatch.setattr(tiles, "PER_TILE", per_tile)
     with Renderer(world, load_sensor("flir"), size=(120, 90)) as renderer:
         codes = renderer.render(view, 36000.0, planes=("display",)).planes["display"]
-        quick = renderer._quick
+        quick = None if renderer._quick is None else renderer._quick.frame
         assert quick is not None
         drawn = tiles.visible_tiles(quick.tiles, view, (120, 90))
         edge = quick.tiles.edge

@@ -8,11 +8,13 @@ from rich.console import Console
 from sensorsim.cli.bench import bench
 from sensorsim.cli.capture import capture
 from sensorsim.cli.diff import diff
+from sensorsim.cli.effects import effects
 from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
 from sensorsim.cli.study_accuracy import accuracy
+from sensorsim.cli.study_effects import effects as study_effects
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
 from sensorsim.cli.view import view
@@ -27,10 +29,11 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
-for command in (render, view, capture, bench, gallery, diff, scene, wall, info):
+for command in (render, view, capture, bench, gallery, diff, effects, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)
+study.command("effects")(study_effects)
 study.command("sensitivity")(sensitivity)
 study.command("stability")(stability)
 app.add_typer(study, name="study")

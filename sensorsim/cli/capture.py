@@ -5,7 +5,7 @@ import multiprocessing
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -15,6 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from sensorsim.cli.options import (
     Backend,
+    Effects,
     Level,
     Preset,
     SceneName,
@@ -22,11 +23,14 @@ from sensorsim.cli.options import (
     find_weather,
     local_day,
     make_folder,
+    read_effects,
     read_moment,
     read_size,
 )
 from sensorsim.cli.render import read_camera
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.effects import EffectChoice
+from sensorsim.environment import Weather
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import CameraPath, read_camera_path
 from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
@@ -34,6 +38,7 @@ from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import Sensor, load_sensor
+from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
 
 FORMATS = ("png", "exr", "npy", "tiff")
@@ -80,6 +85,7 @@ def capture(
     video_rate: Annotated[float, typer.Option(help="Pictures per second of the video.")] = 30.0,
     jobs: Annotated[int, typer.Option(help="Processes that draw side by side.")] = 1,
     preset: Preset = "standard",
+    effects: Effects = "auto",
     backend: Backend = "auto",
 ) -> None:
     """Render a sequence; run again, it goes on where it was cut off, without redoing what is whole."""
@@ -88,20 +94,21 @@ def capture(
     pixels = None if size is None else read_size(size)
     moment, place = read_moment(at), load_scene(scene, level=level)
     route = _route(place, path, rate, camera, moment, until, every)
-    with bake_progress("baking") as progress:
-        found = find_weather(weather, local_day(moment, place.site.utc_offset))
-        day = local_day(moment, found.site.utc_offset)
-        world = build_world(place, found, image_day=day, settings=bake_preset(preset), progress=progress)
-    shots = _shots(route, moment, world)
-    make_folder(out)
     names = tuple(name for name in planes.split(",") if name)
+    choice = read_effects(effects, names)
+    found = find_weather(weather, local_day(moment, place.site.utc_offset))
+    day = local_day(moment, found.site.utc_offset)
+    settings = bake_preset(preset)
+    worlds = [_world(place, found, day, settings, choice, device) for device in devices]
+    shots = _shots(route, moment, worlds[0])
+    make_folder(out)
     options = SequenceOptions(folder=out, planes=names, plane_format=plane_format, suffix=f".{file_format}")
     work = [
         _Job(
             world=world, sensor=device, size=pixels, samples=samples if device.detector else 1, backend=backend,
             shots=shots, numbers=numbers, options=options,
         )
-        for device in devices
+        for world, device in zip(worlds, devices, strict=True)
         for numbers in blocks(len(shots))
     ]  # fmt: skip
     _draw_all(work, jobs, len(shots) * len(devices))
@@ -109,6 +116,16 @@ def capture(
         target = out / f"{device.name}.{video}"
         write_video([frame_path(options, device, shot.number) for shot in shots], target, video_rate)
         Console(soft_wrap=True).print(f"wrote {target}", markup=False, highlight=False)
+
+
+def _world(
+    scene: Scene, weather: Weather, day: date, settings: BakeSettings, choice: EffectChoice, sensor: Sensor
+) -> World:
+    """The scene for one sensor: what may be left out depends on its noise."""
+    with bake_progress("baking") as progress:
+        return build_world(
+            scene, weather, image_day=day, settings=settings, progress=progress, effects=choice, sensor=sensor
+        )
 
 
 def _check(jobs: int, every: float, file_format: str, video: str | None) -> None:

@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from sensorsim.cli.options import AsJson, Backend, Preset, bake_progress, make_folder, read_size
+from sensorsim.cli.options import AsJson, Backend, Effects, Preset, bake_progress, make_folder, read_size
+from sensorsim.effects import read_choice
 from sensorsim.study import make_gallery
 from sensorsim.tables import preset as bake_preset
 
@@ -16,14 +17,15 @@ def gallery(
     out: Annotated[Path, typer.Option(help="Folder of the sheets.")] = Path("out/gallery"),
     size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of each picture.")] = "480x360",
     preset: Preset = "standard",
+    effects: Effects = "auto",
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
     """Draw figures 19 and 21 to 27 of the report as labelled contact sheets."""
-    pixels, settings = read_size(size), bake_preset(preset)
+    pixels, settings, choice = read_size(size), bake_preset(preset), read_choice(effects)
     make_folder(out)
     with bake_progress("gallery") as progress:
-        sheets = make_gallery(out, size=pixels, settings=settings, backend=backend, progress=progress)
+        sheets = make_gallery(out, size=pixels, settings=settings, backend=backend, progress=progress, effects=choice)
     if as_json:
         print(json.dumps({"files": [str(path) for path in sheets]}))  # noqa: T201
         return

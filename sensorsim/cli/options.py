@@ -1,6 +1,6 @@
 """Options that commands share, and the readers of their values."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from datetime import date, datetime, timedelta, timezone
 from pathlib import Path
@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from sensorsim.effects import EffectChoice, read_choice
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
 from sensorsim.tables.bake import Progress as BakeProgress
@@ -18,6 +19,15 @@ SceneName = Annotated[str, typer.Argument(help="Scene that comes with the packag
 Level = Annotated[str, typer.Option(help="Level of detail: IA, IIA or IIIB.")]
 Preset = Annotated[str, typer.Option(help="How finely to bake: draft, report, standard or reference.")]
 Backend = Annotated[str, typer.Option(help="OpenGL back end: auto, egl, osmesa or x11.")]
+Effects = Annotated[
+    str, typer.Option(help="auto, all, none, or single effects: +name,-name; `sensorsim effects` lists them.")
+]
+Atmosphere = Annotated[
+    str, typer.Option(help="standard (from the weather), report (eq. 15), or modtran (its tables' summer day).")
+]
+Visibility = Annotated[float, typer.Option(help="Meteorological range [km].")]
+Aerosol = Annotated[str, typer.Option(help="rural, urban, maritime, tropospheric, advection_fog or radiation_fog.")]
+TEMPERATURE_PLANES = frozenset({"surface_temperature", "fit_error"})  # a band that shows none has them on request
 AsJson = Annotated[bool, typer.Option("--json", help="Print figures as JSON.")]
 
 
@@ -44,6 +54,12 @@ def read_moment(text: str) -> datetime:
 def local_day(moment: datetime, utc_offset: float) -> date:
     """Date that a clock `utc_offset` [h] ahead of UTC shows; a moment without offset is by that clock already."""
     return (moment if moment.tzinfo is None else moment.astimezone(timezone(timedelta(hours=utc_offset)))).date()
+
+
+def read_effects(text: str, planes: Collection[str]) -> EffectChoice:
+    """The choice of effects, with the temperatures that the planes need."""
+    choice = read_choice(text)
+    return choice.with_wanted("temperature") if TEMPERATURE_PLANES & set(planes) else choice
 
 
 def make_folder(folder: Path) -> None:

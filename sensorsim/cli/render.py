@@ -10,15 +10,20 @@ import typer
 from rich.console import Console
 
 from sensorsim.cli.options import (
+    Aerosol,
     AsJson,
+    Atmosphere,
     Backend,
+    Effects,
     Level,
     Preset,
     SceneName,
+    Visibility,
     bake_progress,
     find_weather,
     local_day,
     make_folder,
+    read_effects,
     read_moment,
     read_size,
 )
@@ -56,16 +61,12 @@ def render(
     plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
-    atmosphere: Annotated[
-        str, typer.Option(help="standard (from the weather), report (eq. 15), or modtran (its tables' summer day).")
-    ] = DEFAULT_ATMOSPHERE,
+    atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
     radiance: Annotated[
         str, typer.Option(help="apparent, as it reaches the sensor, or source, as it leaves the surfaces.")
     ] = "apparent",
-    visibility: Annotated[float, typer.Option(help="Meteorological range [km].")] = DEFAULT_VISIBILITY / 1000.0,
-    aerosol: Annotated[
-        str, typer.Option(help="rural, urban, maritime, tropospheric, advection_fog or radiation_fog.")
-    ] = "rural",
+    visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
+    aerosol: Aerosol = "rural",
     preset: Preset = "standard",
     exchange: Annotated[
         bool,
@@ -73,6 +74,7 @@ def render(
             "--exchange", help="Near surfaces see each other by long waves and diffuse light, without shadows."
         ),
     ] = False,
+    effects: Effects = "auto",
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
@@ -82,6 +84,7 @@ def render(
     display = _display(device, window, polarity)
     wanted = [name for name in planes.split(",") if name]
     require_writable(out, plane_names(device), planes=wanted, plane_format=plane_format)
+    choice = read_effects(effects, wanted)
     moment = read_moment(at)
     place = load_scene(scene, level=level)
     view = read_camera(place, camera, field_of_view)
@@ -92,8 +95,8 @@ def render(
     make_folder(out.parent)
     with bake_progress("baking") as progress:
         world = build_world(
-            place, series, image_day=day, settings=settings, progress=progress,
-            visibility=1000.0 * visibility, aerosol=aerosol,
+            place, series, image_day=day, settings=settings, progress=progress, visibility=1000.0 * visibility,
+            aerosol=aerosol, effects=choice, sensor=device,
         )  # fmt: skip
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)

@@ -57,8 +57,9 @@ def circumsolar_irradiance(diffuse: FloatArray, brightness: SkyBrightness, sun_d
 
 
 def perez_irradiance(
-    diffuse: FloatArray, brightness: SkyBrightness, sun_direction: FloatArray, normal: FloatArray
-) -> FloatArray:
+    diffuse: FloatArray, brightness: SkyBrightness, sun_direction: FloatArray, normal: FloatArray, *,
+    dome: bool = True, glow: bool = True, horizon: bool = True,
+) -> FloatArray:  # fmt: skip
     """Diffuse irradiance (n, m) [W m-2] from the sky on surfaces of unit normals (m, 3) east, north, up.
 
     Parameters
@@ -66,13 +67,16 @@ def perez_irradiance(
     diffuse : (n,) on the horizontal
     brightness : of the sky at the n times
     sun_direction : (n, 3) unit vector towards the sun
+    dome, glow, horizon : the parts of the sky that count
     """
-    dome = diffuse * (1.0 - brightness.circumsolar)
-    glow = circumsolar_irradiance(diffuse, brightness, sun_direction)
-    rim = diffuse * brightness.horizon
-    total = np.maximum(sun_direction @ normal.T, 0.0)
-    total *= glow[:, None]
-    sine = np.hypot(normal[:, 0], normal[:, 1])
-    total += np.stack([dome, rim], axis=-1) @ np.stack([0.5 * (1.0 + normal[:, 2]), sine])
+    total = np.zeros((diffuse.size, normal.shape[0]))
+    if glow:
+        total = np.maximum(sun_direction @ normal.T, 0.0)
+        total *= circumsolar_irradiance(diffuse, brightness, sun_direction)[:, None]
+    uniform = diffuse * (1.0 - brightness.circumsolar) * float(dome)
+    rim = diffuse * brightness.horizon * float(horizon)
+    if dome or horizon:
+        sine = np.hypot(normal[:, 0], normal[:, 1])
+        total += np.stack([uniform, rim], axis=-1) @ np.stack([0.5 * (1.0 + normal[:, 2]), sine])
     # A dark horizon may take more from a surface that leans forward than its bit of dome gives.
     return np.asarray(np.maximum(total, 0.0, out=total), dtype=np.float64)

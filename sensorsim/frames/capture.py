@@ -8,6 +8,7 @@ from datetime import datetime
 import numpy as np
 
 from sensorsim.constants import SECONDS_PER_HOUR
+from sensorsim.effects import NOT_MODELLED
 from sensorsim.errors import InputError
 from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
 from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
@@ -91,6 +92,8 @@ def request_settings(
         "bake": {**bake, "reflectances": list(bake["reflectances"])},
         "lead_in": _lead_in_settings(world.tables),
         "exchange": _exchange_settings(world.offsets),
+        "effects_asked": world.choice.text,
+        "not_modelled": list(NOT_MODELLED),
         "world_sha256": world.inputs_sha256,
         "sensor": _sensor_settings(sensor),
         "size": list(renderer.size),
@@ -116,16 +119,21 @@ def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
 
 def _outcome(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
     """What was found while drawing."""
-    display = picture.display
+    display, ledger = picture.display, picture.ledger
+    if ledger is None:
+        ledger = renderer.ledger(picture.camera, picture.time_of_day, picture.illumination)
     window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
     return {
         "display": {**window, "tone": display.tone, "gamma": display.gamma},
+        "effects": ledger.to_list(),
         "atmosphere": _air_settings(renderer, picture),
     }
 
 
 def _lead_in_settings(tables: ShadeTables) -> JSON:
     """From how long before the image day walls were marched, and which began with their first day repeated."""
+    if not tables.lead_in:
+        return None  # nothing was marched
     hours = [one.span / SECONDS_PER_HOUR for one in tables.lead_in]
     repeated = [wall.name for wall, one in zip(tables.wall_types, tables.lead_in, strict=True) if one.repeated]
     return {"shortest_h": min(hours), "longest_h": max(hours), "first_day_repeated": list(dict.fromkeys(repeated))}

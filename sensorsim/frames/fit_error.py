@@ -4,7 +4,7 @@ import numpy as np
 
 from sensorsim.materials import load_catalogue
 from sensorsim.render import World
-from sensorsim.render.world import ground_plane
+from sensorsim.render.survey import ground_plane
 from sensorsim.tables import surface_temperature
 from sensorsim.tables.full_solve import FINE_STEP, distinct_surfaces, fine_environment, fine_settings, solve_surfaces
 from sensorsim.tables.orientations import FloatArray, IntArray

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import PI
+from sensorsim.effects import EffectPlan
 from sensorsim.environment import (
     CLOUD_TEMPERATURE_DEPRESSION,
     AirPath,
@@ -140,3 +141,10 @@ def _reflective(sample: EnvironmentSample) -> Illumination:
 
 def _sines() -> FloatArray:
     return np.linspace(0.0, 1.0, SKY_ENTRIES)
+
+
+def seen_with(illumination: Illumination, plan: EffectPlan) -> Illumination:
+    """The surroundings by a plan: without its air, or without the sun's light on surfaces, where these are left out."""
+    if not plan.has("atmosphere"):
+        illumination = replace(illumination, air=clear_path())
+    return illumination if plan.has("reflected_sun") else replace(illumination, beam=0.0)

@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.effects import EffectPlan
 from sensorsim.gpu import float_table, update_table
 from sensorsim.radiometry import BandTable
 from sensorsim.render.blocks import ILLUMINATION
@@ -30,6 +31,7 @@ class MomentTables:
         self.time_of_day = -1.0  # [s] that the tables of walls are of
         self.illumination: Illumination | None = None
         self.uploaded = 0  # [byte] since the beginning
+        self.mirrors = False  # whether a frame has called for what surfaces mirror
         surfaces = world.scene.surfaces
         self.records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
         band, skies = _band_lookup(band_table), (dark().sky_table(), *dark().glow_tables())
@@ -39,7 +41,7 @@ class MomentTables:
             **{f"{table.name}_table": table.texels for table in skies},
             "rise_table": rise_table(),
             "mirror_table": dark().mirror_table(),
-            **shade_texels(world.tables, 0.0),
+            **_known(shade_texels(world.tables, 0.0)),
         }
         self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
         lobes = world.tables.lobes
@@ -58,11 +60,14 @@ class MomentTables:
         for name, texture in self.textures.items():
             texture.use(TEXTURE_UNITS[name])
 
-    def set(self, time_of_day: float, illumination: Illumination) -> None:
-        """Upload what a time of the image day [s] and its surroundings have changed."""
+    def set(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
+        """Upload what a time of the image day [s] and its surroundings have changed, if the plan calls for it."""
+        mirrors = plan.has("specular") and not self.mirrors
+        if mirrors:
+            self.mirrors, self.illumination = True, None
         if time_of_day == self.time_of_day and illumination is self.illumination:
             return
-        if time_of_day != self.time_of_day:
+        if time_of_day != self.time_of_day and plan.has("temperature"):
             self._set_walls(time_of_day)
         if illumination is not self.illumination:
             self._set_light(illumination)
@@ -74,13 +79,14 @@ class MomentTables:
         if offsets is not None:
             set_offsets(self.records, offsets.at(time_of_day, self.world.scene.surfaces.area.size))
             self._update("surface_table", self.records)
-        for name, texels in shade_texels(self.world.tables, time_of_day, most=self.most).items():
+        for name, texels in _known(shade_texels(self.world.tables, time_of_day, most=self.most)).items():
             self._update(name, texels)
 
     def _set_light(self, illumination: Illumination) -> None:
         for table in (illumination.sky_table(), *illumination.glow_tables()):
             self._update(f"{table.name}_table", table.texels)
-        self._update("mirror_table", illumination.mirror_table())
+        if self.mirrors:
+            self._update("mirror_table", illumination.mirror_table())
         self.block.write(
             ILLUMINATION.pack(
                 quadrant=illumination.quadrant,
@@ -106,3 +112,8 @@ def _band_lookup(table: BandTable | None) -> LookupTable:
         maximum=700.0 if table is None else float(table.temperature[-1]),
         values=np.zeros(2) if table is None else table.radiance,
     )
+
+
+def _known(texels: dict[str, NDArray[np.float32]]) -> dict[str, NDArray[np.float32]]:
+    """Texels with zeros for what was not solved, NaN from the first component on, which no surface reads."""
+    return {name: np.where(np.isnan(values[..., :1]), np.float32(0.0), values) for name, values in texels.items()}

@@ -63,7 +63,7 @@ class Pass:
 
 
 def surface_pass(
-    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool, lobes: bool
+    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], defines: Mapping[str, int]
 ) -> Pass:
     """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
     return Pass(
@@ -75,21 +75,19 @@ def surface_pass(
             "surface_table",
             "coefficient_table",
             "band_radiance_table",
+            "lobe_table",
             "rise_table",
             "mirror_table",
-            *(("lobe_table",) if lobes else ()),
         ),
         generated={**generated, "constants": constants_glsl()},
-        defines={"EMISSIVE": int(emissive), "LOBES": int(lobes)},
+        defines=defines,
         mesh=mesh,
     )
 
 
-def background_pass(
-    ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, marked: bool = False, horizon: int = 0
-) -> Pass:
+def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines: Mapping[str, int]) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
-    glow = () if emissive else ("sky_gradation_table", "sky_indicatrix_table")
+    glow = () if defines["EMISSIVE"] else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
         "scene/background.vert",
@@ -97,7 +95,7 @@ def background_pass(
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("sky_radiance_table", *glow),
         generated=generated,
-        defines={"EMISSIVE": int(emissive), "MARKED": int(marked), "HORIZON": horizon},
+        defines={"MARKED": 0, "HORIZON": 0, **defines},
     )
 
 

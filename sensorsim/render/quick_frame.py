@@ -43,14 +43,12 @@ class QuickFrame:
         self.target = render_target(ctx, size, {"radiance": "R32F"}, depth=True)
         self.stored = np.zeros((size[1], size[0]), np.float32)
         texts = {**generated, "constants": constants_glsl()}
-        lobes = world.tables.lobes is not None
         self.settle_pass = screen_pass(
-            ctx, "scene/settled.frag", (*MIRRORING, "coefficient_table", *(("lobe_table",) if lobes else ())),
-            {"EMISSIVE": int(emissive), "LOBES": int(lobes)}, blocks=(ILLUMINATION,), generated=texts,
+            ctx, "scene/settled.frag", (*MIRRORING, "coefficient_table", "lobe_table"), {"EMISSIVE": int(emissive)},
+            blocks=(ILLUMINATION,), generated=texts,
         )  # fmt: skip
-        self.backgrounds = [
-            background_pass(ctx, generated, emissive=emissive, marked=True, horizon=horizon) for horizon in range(3)
-        ]
+        plain = {"EMISSIVE": int(emissive), "PATH": 1, "MARKED": 1}
+        self.backgrounds = [background_pass(ctx, generated, {**plain, "HORIZON": horizon}) for horizon in range(3)]
         self.tiles = build_tiles(world.scene.mesh, *_kinds_and_heights(world, emissive=emissive))
         mesh = world.scene.mesh
         buffers = mesh_buffers(

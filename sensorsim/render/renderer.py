@@ -1,7 +1,6 @@
 """One frame as an ordered list of passes: surfaces, background, read-back, window, display."""
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection
 from types import TracebackType
 from typing import Any, Self
 
@@ -9,44 +8,37 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.effects import EFFECTS, EVERYTHING, SURFACE, EffectPlan, Ledger
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
 from sensorsim.render.blocks import AIR, DISPLAY, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
-from sensorsim.render.illumination import Illumination, illuminate
+from sensorsim.render.frame_effects import frame_ledger, world_extremes
+from sensorsim.render.illumination import Illumination, illuminate, seen_with
 from sensorsim.render.moment import MomentTables
-from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
-from sensorsim.render.quick_frame import QuickFrame
+from sensorsim.render.passes import TEXTURE_UNITS, display_pass
+from sensorsim.render.picture import QUANTITIES, Picture, exposed
+from sensorsim.render.quick_road import QuickRoad
 from sensorsim.render.sensor_chain import SensorChain
-from sensorsim.render.world import World
+from sensorsim.render.variants import Programs
+from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
+    SHARP,
     TONE_ENTRIES,
     DisplaySettings,
-    RowChain,
     Sensor,
     exposure_for,
     fix_window,
-    sampled_surfaces,
+    sensor_parts,
+    sensor_without,
     tone_curve,
     window_limits,
 )
 from sensorsim.tables import LookupTable
 
 _BLOCKS = (VIEW_FRAME, AIR, DISPLAY)
-QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Picture:
-    """What one look yields: planes (height, width), row 0 at the top, and the display window they were shown with."""
-
-    planes: Mapping[str, NDArray[Any]]
-    display: DisplaySettings
-    time_of_day: float  # [s]
-    camera: Camera
-    illumination: Illumination
 
 
 class Renderer:
@@ -68,9 +60,9 @@ class Renderer:
         self.samples, self.blur_energy = samples, blur_energy
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
         self.watch: Callable[[str], None] = _nothing  # told of each stage of a frame for display alone, once it is over
-        self._quick: QuickFrame | None = None
-        self._rows: RowChain | None = None
+        self._quick: QuickRoad | None = None
         self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
+        require_temperature(world, sensor)
         self.ctx = create_context(backend)
         try:
             self._build()
@@ -90,8 +82,8 @@ class Renderer:
 
     def release(self) -> None:
         """Give back the OpenGL context with everything in it."""
-        if self._rows is not None:
-            self._rows.release()
+        if self._quick is not None:
+            self._quick.release()
         self.ctx.release()
 
     def render(
@@ -102,22 +94,36 @@ class Renderer:
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
         bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
-        number; all, or those asked for. Display alone takes a quicker road: see `quick_frame`; its codes may differ by
-        one. `illumination` replaces the surroundings of the moment.
+        number; all that the effects leave, or those asked for. Display alone takes a quicker road where no effect is
+        refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the moment.
         """
         wanted = self._wanted(planes)
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
+        quick = wanted == {"display"} and self._may_be_quick
+        ledger = None if quick else self.ledger(camera, time_of_day, illumination)
+        plan = EVERYTHING if ledger is None else ledger.plan
+        illumination = seen_with(illumination, plan)
         with self.ctx:  # another renderer's context may have become the current one
-            self._moment.set(time_of_day, illumination)
+            self._moment.set(time_of_day, illumination, plan)
             self._set_view(camera, illumination)
             self.watch("moment")
             chosen = self.sensor.display if display is None else display
-            draw = self._show_quickly if wanted == {"display"} else self._show_all
-            found, settings = draw(camera, chosen, frame, wanted)
+            if quick:
+                found, settings = self._show_quickly(camera, chosen, frame)
+            else:
+                found, settings = self._show_all(camera, chosen, frame, wanted, plan)
         return Picture(
-            planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
-        )
+            planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
+            ledger=ledger,
+        )  # fmt: skip
+
+    def ledger(self, camera: Camera, time_of_day: float, illumination: Illumination) -> Ledger:
+        """Which effects the picture from `camera` calls for, in these surroundings."""
+        return frame_ledger(
+            self.world, self.sensor, self.band_table, camera, self.size, illumination,
+            extremes=lambda: world_extremes(self.world, time_of_day),
+        )  # fmt: skip
 
     def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
         """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
@@ -150,10 +156,11 @@ class Renderer:
         self._box = mesh.position.min(axis=0), mesh.position.max(axis=0)
         self._moment = MomentTables(ctx, self.world, self.band_table)
         vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
-        emissive, lobes = self.band_table is not None, self.world.tables.lobes is not None
-        buffers, generated = mesh_buffers(ctx, vertices, mesh.triangle), self._moment.generated
-        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
-        self._background = background_pass(ctx, generated, emissive=emissive)
+        buffers, emissive = mesh_buffers(ctx, vertices, mesh.triangle), self.band_table is not None
+        self._programs = Programs(ctx, buffers, self._moment.generated, emissive=emissive)
+        choice = self.world.choice
+        self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
+        self._may_be_quick = all(choice.asked(one.name) is not False for one in EFFECTS if one.stage != SURFACE)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -166,8 +173,9 @@ class Renderer:
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
         if self.sensor.detector is not None:
-            energy = self.blur_energy
-            self._chain = SensorChain(ctx, self.sensor, self.size, samples=self.samples, energy=energy)
+            energy = SHARP if "blur" in self._off else self.blur_energy
+            chosen = sensor_without(self.sensor, self._off)
+            self._chain = SensorChain(ctx, chosen, self.size, samples=self.samples, energy=energy)
         self._target = render_target(ctx, drawn, {"quantities": "RGBA32F", "id": "R32I"}, depth=True)
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
@@ -189,44 +197,39 @@ class Renderer:
         self._bind()
 
     def _show_quickly(
-        self, camera: Camera, display: DisplaySettings, frame: int, _wanted: set[str]
+        self, camera: Camera, display: DisplaySettings, frame: int
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
-        if self._quick is None or self._rows is None:
-            drawn, emissive = (self.samples * self.size[0], self.samples * self.size[1]), self.band_table is not None
-            self._quick = QuickFrame(self.ctx, self.world, drawn, self._moment.generated, emissive=emissive)
-            self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
-        self._quick.settle(self._moment.number)
-        field = float(np.radians(camera.horizontal_field_of_view))
-        self._quick.draw(camera)
-        self.watch("draw")
-        stored = self._quick.read()
-        self.watch("read-back")
-        signal = self._rows.run(stored, field, frame)
-        self.watch("sensor")
-        settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
-        self.watch("window")
-        codes = self._rows.show(settings)
-        self.watch("display")
+        if self._quick is None:
+            self._quick = QuickRoad(
+                self.ctx,
+                self.world,
+                self.sensor,
+                self.size,
+                self._moment.generated,
+                samples=self.samples,
+                energy=self.blur_energy,
+            )
+        codes, settings = self._quick.show(camera, display, frame, self._moment.number, self.watch)
         return {"display": codes}, settings
 
     def _show_all(
-        self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str]
+        self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
-        self._draw()
-        planes = self._read(wanted)
+        self._draw(plan)
+        planes = self._read(wanted, plan)
         self._detect(camera, planes, frame)
         seen = exposed(planes)
         settings = fix_window(display, seen)
         planes["display"] = self._display(settings, seen)
         return {name: plane for name, plane in planes.items() if name in wanted}, settings
 
-    def _draw(self) -> None:
+    def _draw(self, plan: EffectPlan) -> None:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
-        self._background.draw()
+        self._programs.background(plan).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._surfaces.draw()
+        self._programs.surfaces(plan).draw()
 
     def _bind(self) -> None:
         for block in _BLOCKS:
@@ -234,7 +237,7 @@ class Renderer:
         self._moment.bind()
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
-    def _read(self, wanted: set[str]) -> dict[str, NDArray[Any]]:
+    def _read(self, wanted: set[str], plan: EffectPlan) -> dict[str, NDArray[Any]]:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
@@ -242,6 +245,7 @@ class Renderer:
         planes: dict[str, NDArray[Any]] = {
             name: np.ascontiguousarray(quantities[middle, middle, component])
             for component, name in enumerate(QUANTITIES)
+            if name != "surface_temperature" or plan.has("temperature")
         }
         surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
         planes["surface_id"] = surface
@@ -276,11 +280,6 @@ class Renderer:
         self.ctx.enable_only(moderngl.NOTHING)
         show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
-
-
-def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
-    """Radiances that an automatic gain goes by, of what the detector reports where there is one."""
-    return sampled_surfaces(planes.get("signal", planes["radiance"]), planes["surface_id"] >= 0)
 
 
 def _nothing(_stage: str) -> None:

@@ -31,8 +31,7 @@ def surface_table(
     record[:, 3] = quadrant_view_factors(normal)
     record[:, 4, 0] = assignment.nir_reflectance
     record[:, 4, 1] = feature
-    codes = np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)
-    record[:, 5] = gloss_records(codes[assignment.wall_type], assignment.emissivity)
+    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity)
     rows = -(-count // SURFACES_PER_ROW)
     columns = SURFACES_PER_ROW if rows > 1 else count
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
@@ -43,3 +42,8 @@ def surface_table(
 def set_offsets(records: NDArray[np.float32], offset: NDArray[np.float64]) -> None:
     """Write into the records what surfaces (s,) differ from the tables by at a moment [K]."""
     records.reshape(-1, SURFACE_TEXELS, 4)[: offset.size, 4, 2] = offset
+
+
+def surface_codes(assignment: Assignment) -> NDArray[np.int64]:
+    """Material code (s,) of each surface."""
+    return np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)[assignment.wall_type]

@@ -10,13 +10,14 @@ from sensorsim.sensor.display import (
     window_from_temperatures,
     window_limits,
 )
-from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
+from sensorsim.sensor.exposure import FILLED, exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places, focal_plane
 from sensorsim.sensor.intensifier import Intensifier
 from sensorsim.sensor.load import load_sensor, sensor_names
 from sensorsim.sensor.memory import remember, renewed_share
 from sensorsim.sensor.noise import Noise
 from sensorsim.sensor.optics import Optics
+from sensorsim.sensor.parts import SHARP, sensor_parts, sensor_without
 from sensorsim.sensor.point_spread import Kernel, blur_kernel, system_transfer
 from sensorsim.sensor.random_field import deviate_table, normal_deviate
 from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, read_out, stream_seed
@@ -28,7 +29,9 @@ from sensorsim.sensor.spill import HALO_BLOCK, STREAK_BLOCK, halo_radius, kept_p
 from sensorsim.sensor.tone import TONE_ENTRIES, tone_curve
 
 __all__ = [
+    "FILLED",
     "HALO_BLOCK",
+    "SHARP",
     "STREAK_BLOCK",
     "TONE_ENTRIES",
     "Detector",
@@ -64,6 +67,8 @@ __all__ = [
     "sampled_surfaces",
     "sensitivity",
     "sensor_names",
+    "sensor_parts",
+    "sensor_without",
     "stream_seed",
     "system_transfer",
     "tone_curve",

@@ -14,6 +14,7 @@ from sensorsim.errors import InputError
 class Noise:
     """Components over the random one [-], and elements that do not see; InputError for what cannot be."""
 
+    random: float = 1.0  # tvh itself, over what the detector makes of light; 0: none at all
     v: float = 0.0  # rows that differ: channels of a scanner
     h: float = 0.0  # columns that differ: read-out of an array
     vh: float = 0.0  # fixed pattern

@@ -62,11 +62,13 @@ def blur_kernel(
     """Kernel on samples of `sample` [rad], None for a sensor without optics.
 
     rows and field [rad] of the picture, for the sweep of a scanner; the sensor's own if left out. `energy` is the share
-    of a point's light that reaches as far as it should; an edge is true to 0.36 of the rest. Raises InputError for
-    samples so fine that the blur would be wider than REACH of them.
+    of a point's light that reaches as far as it should; an edge is true to 0.36 of the rest, and 0 is no blur at all.
+    Raises InputError for samples so fine that the blur would be wider than REACH of them.
     """
     if sensor.optics is None:
         return None
+    if energy == 0.0:
+        return Kernel(row=np.ones((1, 1)), column=np.ones((1, 1)))
     rows = sensor.size[1] if rows is None else rows
     field = math.radians(sensor.horizontal_field_of_view) if field is None else field
     sweep_rate, extent = sensor.scan.sweep_rate(field, rows), FIRST_REACH

@@ -48,7 +48,7 @@ def sensitivity(sensor: Sensor) -> Sensitivity:
     """What the sensor's detector makes of radiance; InputError for an ideal sensor, which has none."""
     if sensor.detector is None or sensor.optics is None:
         raise InputError(f"sensor {sensor.name!r}", "detector", None, "not described", "add [optics] and [detector]")
-    detector, optics = sensor.detector, sensor.optics
+    detector, optics, variance = sensor.detector, sensor.optics, sensor.noise.random**2
     area = detector.width * detector.height
     highest = 2**detector.bits - 1
     if detector.kind == "photon":
@@ -58,13 +58,13 @@ def sensitivity(sensor: Sensor) -> Sensitivity:
         dark = detector.excess_noise * detector.dark_current * detector.integration_time
         constant, full = (dark + detector.read_noise**2) / electrons**2, detector.well / electrons
         shot = detector.excess_noise / electrons
-        return Sensitivity(constant=constant, shot=shot, full=full, step=full / highest)
+        return Sensitivity(constant=variance * constant, shot=variance * shot, full=full, step=full / highest)
     if detector.kind == "detectivity":
         equivalent = math.sqrt(detector.bandwidth / area) / (optics.light_share * detector.detectivity)
     else:
         equivalent = detector.netd * float(band_radiance_derivative(sensor.band, STATED_AT))
     full = float(band_radiance(sensor.band, detector.saturation))
-    return Sensitivity(constant=equivalent**2, shot=0.0, full=full, step=full / highest)
+    return Sensitivity(constant=variance * equivalent**2, shot=0.0, full=full, step=full / highest)
 
 
 def netd(sensor: Sensor, temperature: float = STATED_AT) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from sensorsim.environment import Weather, build_environment
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.render import build_world
-from sensorsim.render.world import ground_plane
+from sensorsim.render.survey import ground_plane
 from sensorsim.scene import Scene
 from sensorsim.sensor import load_sensor
 from sensorsim.study.accuracy_images import ImageScore, compare, look, true_world

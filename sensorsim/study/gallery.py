@@ -12,11 +12,12 @@ from pathlib import Path
 import imageio.v3 as imageio
 import numpy as np
 
+from sensorsim.effects import EffectChoice
 from sensorsim.environment import read_weather
 from sensorsim.frames import ScaleBar, contact_sheet, radiance_scale, temperature_scale
 from sensorsim.radiometry import build_band_table
-from sensorsim.render import Picture, Renderer, World, build_world, station_camera
-from sensorsim.render.renderer import exposed
+from sensorsim.render import EVERY_EFFECT, Picture, Renderer, World, build_world, station_camera
+from sensorsim.render.picture import exposed
 from sensorsim.scene import load_scene
 from sensorsim.sensor import DisplaySettings, auto_window, display_code, load_sensor
 from sensorsim.tables import BakeSettings
@@ -74,6 +75,7 @@ def make_gallery(
     settings: BakeSettings | None = None,
     backend: str = "auto",
     progress: Progress | None = None,
+    effects: EffectChoice = EVERY_EFFECT,
 ) -> list[Path]:
     """Draw all figures into `folder`; returns the sheets in the order of the figures."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -83,8 +85,9 @@ def make_gallery(
         if progress is not None:
             progress(f"level {level}, {day}", done, len(wanted))
         world = build_world(
-            load_scene("hospital", level=level), read_weather(day.isoformat()), image_day=day, settings=settings
-        )
+            load_scene("hospital", level=level), read_weather(day.isoformat()), image_day=day, settings=settings,
+            effects=effects, sensor=load_sensor("flir"),
+        )  # fmt: skip
         for key, picture in _look(world, level, day, size, backend):
             pictures[key] = picture
     if progress is not None:

@@ -1,6 +1,6 @@
 """Coefficient matrix and lookup tables: histories solved ahead, fitted, and evaluated for any normal, wall and time."""
 
-from sensorsim.tables.bake import bake_tables
+from sensorsim.tables.bake import bake_tables, unbaked_tables
 from sensorsim.tables.cache import CACHE_VARIABLE, cache_folder, cached_tables
 from sensorsim.tables.classes import resolve_classes
 from sensorsim.tables.coefficients import Moment, ShadeTables, fit_polynomials
@@ -32,4 +32,5 @@ __all__ = [
     "preset",
     "resolve_classes",
     "surface_temperature",
+    "unbaked_tables",
 ]

@@ -3,20 +3,22 @@
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
-from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, lookup_orientations
+from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
 from sensorsim.tables.history import solve_histories
 from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
+from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
@@ -33,33 +35,37 @@ def bake_tables(
     ground: WallType,
     settings: BakeSettings | None = None,
     progress: Progress | None = None,
+    plan: EffectPlan = EVERYTHING,
+    scope: Scope | None = None,
 ) -> ShadeTables:
     """Tables of all `wall_types` over the environment's image day; `ground` is the plane that walls see.
 
     Wall types are solved in threads, because the compiled march holds no interpreter lock. Of mixed wall types the
-    parts are solved, each once however many hold it.
+    parts are solved, each once however many hold it. The `plan` says what acts on them, the `scope` which orientations
+    and reflectances are solved; everything where there is none.
     """
     settings = BakeSettings() if settings is None else settings
-    normal = orientation_set(settings.orientations).normal
+    scope = whole_scope(wall_types, settings) if scope is None else scope
     own = settings.lead_in_days is None
-    repeated = lead_in_of(ground, environment, own=own).repeated
-    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
+    begin = lead_in_of(ground, environment, own=own)
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
     record = _slices(environment, settings)
     bake = _Bake(
         environment=environment,
-        exposure=expose(environment, normal, soil, sky=settings.sky),
+        exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
         settings=settings,
-        reflectances=np.asarray(settings.reflectances, dtype=np.float64),
+        plan=plan,
+        scope=scope,
+        wall_types=tuple(wall_types),
         record=record,
-        sources=_sources(environment, settings, record),
+        sources=_sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None,
     )
-    rows = _bake_walls(bake, wall_types, progress)
-    kept = np.dtype(settings.precision)
+    rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
     return ShadeTables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
         wall_types=tuple(wall_types),
-        orientations=lookup_orientations(settings),
+        orientations=scope.lookup,
         coefficients=np.stack([row.coefficients for row in rows], axis=1).astype(kept),
         level=np.stack([row.level for row in rows], axis=1),
         bend=np.stack([row.bend for row in rows], axis=1),
@@ -85,35 +91,49 @@ class _Bake:
     environment: Environment
     exposure: Exposure
     settings: BakeSettings
-    reflectances: FloatArray  # (r,)
+    plan: EffectPlan
+    scope: Scope
+    wall_types: tuple[WallType, ...]
     record: IntArray  # (t,) samples of the slices
     sources: LobeSources | None
 
+    @property
+    def reflectances(self) -> FloatArray:
+        """Reflectances (r,) that are solved."""
+        return np.asarray(self.scope.reflectances, dtype=np.float64)
+
     def solve(self, wall: WallType) -> _Solved:
-        """March one plain wall type."""
-        temperature = solve_histories(
-            self.environment, self.exposure, wall, self.reflectances, self.record, settings=self.settings
+        """March one plain wall type; orientations that no wall type needs of it are NaN."""
+        needed, whole = self.scope.of_part(self.wall_types, wall), self.exposure
+        part = Exposure(
+            normal=whole.normal[needed], irradiance=whole.irradiance[:, needed], longwave=whole.longwave[:, needed]
         )
+        solved = solve_histories(
+            self.environment, part, wall, self.reflectances, self.record, settings=self.settings, plan=self.plan
+        )
+        temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
+        temperature[:, needed] = solved
         if self.sources is None:
             return _Solved(temperature=temperature, weight=None)
         response = sun_response(
             self.environment, self.exposure, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
-            first=self.sources.first, settings=self.settings,
+            first=self.sources.first, settings=self.settings, plan=self.plan,
         )  # fmt: skip
         return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
         """Fit any wall type, from its parts where it is mixed."""
-        refl, degree = self.reflectances, self.settings.degree
+        refl = self.reflectances
+        degree = min(self.settings.degree, refl.size - 1)
         own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
-        plain = [solved[part] for part in _plain_walls(wall)]
+        plain = [solved[part] for part in plain_walls(wall)]
         parts = [
             _at(history.temperature, refl, row) if wall.parts else history.temperature
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
         if self.sources is None:
-            return fit_plain(temperature, refl, degree)
+            return self._fit_needed(wall, temperature, degree)
         rises = [
             history.weight[..., None] * (1.0 - row)
             for history, row in zip(plain, own, strict=True)
@@ -123,10 +143,19 @@ class _Bake:
         rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
         return fit_lobes(temperature, rise, self.sources, self.exposure.normal, refl, degree)
 
+    def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
+        """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
+        needed = self.scope.needed[self.wall_types.index(wall)]
+        fitted = fit_plain(temperature[:, needed], self.reflectances, degree)
+        coefficients = np.full((*temperature.shape[:2], degree + 1), np.nan)
+        coefficients[:, needed] = fitted.coefficients
+        return replace(fitted, coefficients=coefficients)
 
-def _bake_walls(bake: _Bake, wall_types: Sequence[WallType], progress: Progress | None) -> list[FittedWall]:
+
+def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
     """Solve what the wall types are made of, and fit them."""
-    plain = list(dict.fromkeys(part for wall in wall_types for part in _plain_walls(wall)))
+    wall_types = bake.wall_types
+    plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, _Solved] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         for wall, history in zip(plain, pool.map(bake.solve, plain), strict=True):
@@ -136,22 +165,15 @@ def _bake_walls(bake: _Bake, wall_types: Sequence[WallType], progress: Progress 
         return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
 
 
-def _plain_walls(wall: WallType) -> tuple[WallType, ...]:
-    """The wall types that have to be solved for one: itself, or the parts of a mixture."""
-    return tuple(part.wall for part in wall.parts) or (wall,)
-
-
 def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) -> FloatArray:
     """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
     powers = np.vander(asked, reflectances.size, increasing=True)
     return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1) @ powers.T)
 
 
-def _sources(environment: Environment, settings: BakeSettings, record: IntArray) -> LobeSources | None:
-    """Sources of the lobes, if the settings ask for any and the sun shines at all."""
-    if settings.lobes == 0.0:
-        return None
-    return lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky)
+def _sources(environment: Environment, settings: BakeSettings, record: IntArray, plan: EffectPlan) -> LobeSources:
+    """Sources of the lobes."""
+    return lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan)
 
 
 def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dtype[np.floating]) -> Lobes | None:
@@ -159,6 +181,24 @@ def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dty
         return None
     weight = np.stack([row.weight for row in rows if row.weight is not None], axis=1)
     return Lobes(sun=sources.sun, direction=sources.direction, weight=weight.astype(kept))
+
+
+def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], settings: BakeSettings) -> ShadeTables:
+    """Tables in which no temperature is known (NaN): for bands that see none."""
+    orientations = orientation_set("report10")
+    return ShadeTables(
+        day=environment.image_start.date(),
+        time_of_day=np.array([0.0, SECONDS_PER_DAY]),
+        wall_types=tuple(wall_types),
+        orientations=orientations,
+        coefficients=np.full((2, len(wall_types), orientations.normal.shape[0], 1), np.nan, dtype=np.float32),
+        ground_temperature=np.full(2, np.nan),
+        level=np.full((2, len(wall_types)), np.nan),
+        bend=np.zeros((2, len(wall_types))),
+        lobes=None,
+        settings=settings,
+        lead_in=(),
+    )
 
 
 def _slices(environment: Environment, settings: BakeSettings) -> IntArray:

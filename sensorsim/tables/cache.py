@@ -16,11 +16,13 @@ from typing import Any
 
 import numpy as np
 
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.bake import Progress, bake_tables
-from sensorsim.tables.coefficients import ShadeTables, lookup_orientations
+from sensorsim.tables.coefficients import ShadeTables
 from sensorsim.tables.lobes import Lobes
+from sensorsim.tables.scope import Scope, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.lead_in import lead_in_of
 
@@ -29,7 +31,7 @@ KEPT = 64  # files; the ones not used for longest go first
 _SEEN_ONLY = ("visibility", "aerosol")  # bear on what a sensor sees, not on how warm a wall is
 _ARRAYS = ("time_of_day", "coefficients", "level", "bend", "ground_temperature")
 _LOBES = ("sun", "direction", "weight")
-_CODE = ("constants.py", "environment", "materials", "thermal", "tables")
+_CODE = ("constants.py", "effects", "environment", "materials", "thermal", "tables")
 
 
 def cached_tables(
@@ -39,24 +41,34 @@ def cached_tables(
     ground: WallType,
     settings: BakeSettings,
     progress: Progress | None = None,
+    plan: EffectPlan = EVERYTHING,
+    scope: Scope | None = None,
 ) -> ShadeTables:
     """The same as `bake_tables`, from disk where it has been baked before with the same inputs and code."""
     folder = cache_folder()
+    scope = whole_scope(wall_types, settings) if scope is None else scope
+
+    def bake() -> ShadeTables:
+        return bake_tables(
+            environment, wall_types, ground=ground, settings=settings, progress=progress, plan=plan, scope=scope
+        )
+
     if folder is None:
-        return bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
-    path = folder / f"{inputs_digest(environment, wall_types, ground, settings)}.npz"
-    arrays = _read(path, (*_ARRAYS, *_LOBES) if settings.lobes else _ARRAYS)
+        return bake()
+    path = folder / f"{inputs_digest(environment, wall_types, ground, settings, plan=plan, scope=scope)}.npz"
+    lobes = wants_lobes(settings, scope, plan)
+    arrays = _read(path, (*_ARRAYS, *_LOBES) if lobes else _ARRAYS)
     if arrays is not None:
         return ShadeTables(
             day=environment.image_start.date(),
             wall_types=tuple(wall_types),
-            orientations=lookup_orientations(settings),
-            lobes=Lobes(**{name: arrays[name] for name in _LOBES}) if settings.lobes else None,
+            orientations=scope.lookup,
+            lobes=Lobes(**{name: arrays[name] for name in _LOBES}) if lobes else None,
             settings=settings,
             lead_in=tuple(lead_in_of(wall, environment, own=settings.lead_in_days is None) for wall in wall_types),
             **{name: arrays[name] for name in _ARRAYS},
         )
-    tables = bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
+    tables = bake()
     _write(path, tables)
     return tables
 
@@ -71,9 +83,11 @@ def cache_folder() -> Path | None:
 
 
 def inputs_digest(
-    environment: Environment, wall_types: Sequence[WallType], ground: WallType, settings: BakeSettings
-) -> str:
+    environment: Environment, wall_types: Sequence[WallType], ground: WallType, settings: BakeSettings, *,
+    plan: EffectPlan = EVERYTHING, scope: Scope | None = None,
+) -> str:  # fmt: skip
     """SHA-256 of all that decides the tables."""
+    scope = whole_scope(wall_types, settings) if scope is None else scope
     digest = hashlib.sha256()
     for field in fields(environment):
         if field.name in _SEEN_ONLY:
@@ -82,7 +96,8 @@ def inputs_digest(
         digest.update(field.name.encode())
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
     tabled = replace(settings, exchange=False)  # comes on top of the tables
-    digest.update(repr((tuple(wall_types), ground, tabled)).encode())
+    digest.update(repr((tuple(wall_types), ground, tabled, plan.surface, scope.reflectances, scope.lit)).encode())
+    digest.update(scope.solved.tobytes() + scope.needed.tobytes())
     package = Path(__file__).resolve().parent.parent
     for name in _CODE:
         source = package / name

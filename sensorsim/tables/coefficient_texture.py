@@ -36,10 +36,8 @@ def shade_texels(tables: ShadeTables, time_of_day: float, *, most: int | None = 
     most: lobes that the texture has room for; counted over the day where it is left out, which takes a while.
     """
     moment = tables.at(time_of_day)
-    texels = {"coefficient_table": coefficient_texels(moment.coefficients)}
-    if tables.lobes is not None:
-        texels["lobe_table"] = lobe_texels(moment, tables.lobes.most if most is None else most)
-    return texels
+    room = 0 if tables.lobes is None else (tables.lobes.most if most is None else most)
+    return {"coefficient_table": coefficient_texels(moment.coefficients), "lobe_table": lobe_texels(moment, room)}
 
 
 def lobe_texels(moment: Moment, most: int) -> NDArray[np.float32]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
@@ -27,10 +28,11 @@ def wall_history(
     *,
     lead_in: LeadIn,
     cell_size: float = 1.0,
+    plan: EffectPlan = EVERYTHING,
     stride: int = 1,
 ) -> FloatArray:
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
-    inside = inside_of(environment, wall)
+    inside = inside_of(environment, wall, plan)
     water = wall.cover is not None and wall.cover.kind == "water"
     # Water remembers weeks; it starts from the mean of the air that it has mixed in.
     start = float(np.mean(environment.air_temperature)) if water else None
@@ -44,7 +46,7 @@ def wall_history(
     return history.exterior
 
 
-def inside_of(environment: Environment, wall: WallType) -> Inside:
+def inside_of(environment: Environment, wall: WallType, plan: EffectPlan = EVERYTHING) -> Inside:
     """What acts on the interior face of a wall type in this weather."""
     return build_interior(
         wall.interior,
@@ -54,12 +56,13 @@ def inside_of(environment: Environment, wall: WallType) -> Inside:
         wall.interior_emissivity,
         room=wall.room,
         heat_gain=wall.heat_gain,
+        plan=plan,
     )
 
 
 def solve_histories(
     environment: Environment, exposure: Exposure, wall: WallType, reflectances: FloatArray, record: IntArray, *,
-    settings: BakeSettings,
+    settings: BakeSettings, plan: EffectPlan = EVERYTHING,
 ) -> FloatArray:  # fmt: skip
     """Surface temperature (t, o, r) [K] of any wall type at the samples `record` (t,), at solar reflectances (r,).
 
@@ -67,15 +70,15 @@ def solve_histories(
     """
     if wall.parts:
         parts = [
-            solve_histories(environment, exposure, part.wall, own, record, settings=settings)
+            solve_histories(environment, exposure, part.wall, own, record, settings=settings, plan=plan)
             for part, own in zip(wall.parts, mixed_reflectances(wall, reflectances), strict=True)
         ]
         return mix_temperatures(wall, parts)
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
     return wall_history(
         environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size,
-        stride=settings.lead_in_stride,
+        stride=settings.lead_in_stride, plan=plan,
     )  # fmt: skip
 
 
@@ -85,6 +88,7 @@ def surface_histories(
     walls: Sequence[WallType],
     reflectance: FloatArray,
     settings: BakeSettings,
+    plan: EffectPlan = EVERYTHING,
 ) -> FloatArray:
     """Temperatures (t, m) [K] of m surfaces at all samples, each with its wall type, reflectance and exposure.
 
@@ -96,26 +100,27 @@ def surface_histories(
         part = Exposure(
             normal=exposure.normal[row], irradiance=exposure.irradiance[:, row], longwave=exposure.longwave[:, row]
         )
-        found[:, row] = _surfaces_of(environment, part, wall, reflectance[row], settings)
+        found[:, row] = _surfaces_of(environment, part, wall, reflectance[row], settings, plan)
     return found
 
 
 def _surfaces_of(
-    environment: Environment, exposure: Exposure, wall: WallType, reflectance: FloatArray, settings: BakeSettings
-) -> FloatArray:
+    environment: Environment, exposure: Exposure, wall: WallType, reflectance: FloatArray, settings: BakeSettings,
+    plan: EffectPlan,
+) -> FloatArray:  # fmt: skip
     """Temperatures (t, m) [K] of surfaces of one wall type; those of a mixture are joined as `mixture` does."""
     if wall.parts:
         parts = [
-            _surfaces_of(environment, exposure, part.wall, own, settings)
+            _surfaces_of(environment, exposure, part.wall, own, settings, plan)
             for part, own in zip(wall.parts, mixed_reflectances(wall, reflectance), strict=True)
         ]
         return mix_temperatures(wall, parts)
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
     count, stride = environment.time.size, round(settings.slice_interval / environment.step)
     kept = np.union1d(np.arange(environment.image_window.start % stride, count, stride), [0, count - 1])
     whole = replace(lead_in_of(wall, environment, own=settings.lead_in_days is None), first=0)
-    history = wall_history(environment, outside, wall, np.ones(1), kept, lead_in=whole)[:, :, 0]
+    history = wall_history(environment, outside, wall, np.ones(1), kept, lead_in=whole, plan=plan)[:, :, 0]
     later = np.clip(np.searchsorted(kept, np.arange(count)), 1, kept.size - 1)
     share = (np.arange(count) - kept[later - 1]) / (kept[later] - kept[later - 1])
     return np.asarray(history[later - 1] + share[:, None] * (history[later] - history[later - 1]))

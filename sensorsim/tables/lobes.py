@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.constants import SECONDS_PER_DAY
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.heat_balance import directional_irradiance
@@ -61,7 +62,9 @@ class LobeSources:
     light: FloatArray  # (s, m) [W m-2]: of each interval today, that times the share of it gone by, each node's before
 
 
-def lobe_sources(environment: Environment, record: IntArray, *, interval: float, sky: str) -> LobeSources:
+def lobe_sources(
+    environment: Environment, record: IntArray, *, interval: float, sky: str, plan: EffectPlan = EVERYTHING
+) -> LobeSources:
     """Sources of lobes with nodes `interval` [s] apart, for slices at the samples `record` (t,)."""
     window = environment.image_window
     a_day = round(SECONDS_PER_DAY / environment.step)
@@ -69,7 +72,7 @@ def lobe_sources(environment: Environment, record: IntArray, *, interval: float,
     offset = np.arange(first, window.stop) - window.start
     position = (offset % a_day) * environment.step / interval
     count = round(SECONDS_PER_DAY / interval)
-    light = directional_irradiance(environment, sky=sky)[first : window.stop]
+    light = directional_irradiance(environment, sky=sky, plan=plan)[first : window.stop]
     before = np.floor(position + 1e-9).astype(np.int64)
     later, today = position - before, (offset >= 0) & (offset < a_day)
     within = np.zeros((offset.size, count))

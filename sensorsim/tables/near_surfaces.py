@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
@@ -76,6 +77,7 @@ def near_surface_offsets(
     ground: WallType,
     settings: BakeSettings,
     time_of_day: FloatArray,
+    plan: EffectPlan = EVERYTHING,
 ) -> SurfaceOffsets:
     """Offsets of a scene's near surfaces at times (t,) [s] of the image day that are samples of the environment.
 
@@ -86,10 +88,10 @@ def near_surface_offsets(
     if not np.any(near):
         return _offsets(time_of_day, group.row[near], np.zeros((time_of_day.size, 0)), 0, 0.0)
     repeated = lead_in_of(ground, environment, own=settings.lead_in_days is None).repeated
-    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
-    open_air = expose(environment, group.normal, soil, sky=settings.sky)
-    alone = surface_histories(environment, open_air, group.wall, group.reflectance, settings)
-    sunlight = open_air.irradiance + _sunlight_change(environment, open_air, group, settings.sky)
+    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated, plan=plan)
+    open_air = expose(environment, group.normal, soil, sky=settings.sky, plan=plan)
+    alone = surface_histories(environment, open_air, group.wall, group.reflectance, settings, plan)
+    sunlight = open_air.irradiance + _sunlight_change(environment, open_air, group, settings.sky, plan)
     soil_power = STEFAN_BOLTZMANN_CONSTANT * soil**4
     sky_power = _over_sky(open_air.longwave - np.outer(soil_power, ground_view_factor(group.normal)), group.normal)
     walls = [wall for wall, wanted in zip(group.wall, near, strict=True) if wanted]
@@ -98,7 +100,7 @@ def near_surface_offsets(
         change = longwave_from_neighbours(group.exchange, among, group.emissivity, sky=sky_power, ground=soil_power)
         longwave = (open_air.longwave + change)[:, near]
         hemmed = Exposure(normal=group.normal[near], irradiance=sunlight[:, near], longwave=longwave)
-        found = surface_histories(environment, hemmed, walls, group.reflectance[near], settings)
+        found = surface_histories(environment, hemmed, walls, group.reflectance[near], settings, plan)
         left, passes = float(np.max(np.abs(found - among[:, near]))), passes + 1
         among[:, near] = found
     record = environment.image_window.start + np.rint(time_of_day / environment.step).astype(np.int64)
@@ -142,11 +144,13 @@ def _part(exchange: Exchange, row: IntArray) -> Exchange:
     return replace(exchange, rows=matrix.indptr, columns=matrix.indices, factor=matrix.data, **shares)
 
 
-def _sunlight_change(environment: Environment, exposure: Exposure, group: _Group, sky: str) -> FloatArray:
+def _sunlight_change(
+    environment: Environment, exposure: Exposure, group: _Group, sky: str, plan: EffectPlan
+) -> FloatArray:
     """Change (t, n) [W m-2] of the sunlight: less of sky and ground, more from neighbours that the sun shines on."""
     facing = np.maximum(environment.sun_direction @ group.normal.T, 0.0)
-    straight = directional_irradiance(environment, sky=sky)[:, None] * facing
-    ground = reflected_irradiance(environment)
+    straight = directional_irradiance(environment, sky=sky, plan=plan)[:, None] * facing
+    ground = reflected_irradiance(environment) * float(plan.has("ground_sun"))
     diffuse = exposure.irradiance - straight - np.outer(ground, ground_view_factor(group.normal))
     sky_power = _over_sky(diffuse, group.normal)
     own = group.returned * straight

@@ -24,6 +24,7 @@ LAYOUTS = (
     "octahedron1026",
 )  # fmt: skip
 SCHEMES = ("barycentric", "closest")
+OUTSIDE = 1e-6  # how far beyond a triangle's edges a normal may lie by rounding
 NEAREST = 1e-6  # [-] squared distance at which one of the closest three takes all
 
 
@@ -56,10 +57,30 @@ class OrientationSet:
         for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):
             coordinate = np.einsum("tij,mj->mti", self.inverse, normal[rows])
             best = np.argmax(coordinate.min(axis=2), axis=1)
-            inside = np.maximum(coordinate[np.arange(rows.size), best], 0.0)
+            held = coordinate[np.arange(rows.size), best]
+            if np.any(held < -OUTSIDE * np.linalg.norm(normal[rows], axis=1, keepdims=True)):
+                lost = normal[rows][np.argmin(held.min(axis=1))].round(4).tolist()
+                problem, remedy = f"not among the orientations of {self.name} that were solved", "bake all effects"
+                raise InputError("tables", "normal", lost, problem, remedy)
+            inside = np.maximum(held, 0.0)
             corner[rows] = self.triangle[best]
             weight[rows] = inside / inside.sum(axis=1, keepdims=True)
         return corner, weight
+
+    def restrict(self, normal: FloatArray) -> "OrientationSet":
+        """The triangles that hold unit normals (m, 3), and their corners alone; other normals are refused."""
+        corner, _ = self.locate(normal)
+        held = np.unique(corner)
+        place = np.full(self.normal.shape[0], -1, dtype=np.int64)
+        place[held] = np.arange(held.size)
+        kept = np.isin(self.triangle, held).all(axis=1)
+        return OrientationSet(
+            name=self.name,
+            normal=self.normal[held],
+            triangle=place[self.triangle[kept]],
+            inverse=self.inverse[kept],
+            scheme=self.scheme,
+        )
 
     def _closest(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
         squared = np.maximum(2.0 - 2.0 * normal @ self.normal.T, 0.0)

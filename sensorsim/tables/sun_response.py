@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.history import inside_of
@@ -15,7 +16,7 @@ from sensorsim.thermal.paths import wall_paths
 
 def sun_response(
     environment: Environment, exposure: Exposure, wall: WallType, temperature: FloatArray, record: IntArray, *,
-    light: FloatArray, first: int, settings: BakeSettings,
+    light: FloatArray, first: int, settings: BakeSettings, plan: EffectPlan = EVERYTHING,
 ) -> FloatArray:  # fmt: skip
     """Rise (t, m) [K] of a plain wall type, black to the sun, by light (s, m) [W m-2] from sample `first` on.
 
@@ -23,7 +24,7 @@ def sun_response(
     them as at the same clock time later.
     """
     cover = wall.cover
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     at_record = outside._replace(
         film=outside.film[record], air=outside.air[record],
         latent=outside.latent[record] if outside.latent.shape[0] > 1 else outside.latent,
@@ -32,7 +33,7 @@ def sun_response(
     clock = (np.arange(first, record[-1] + 1) - record[0]) % max(int(record[-1] - record[0]), 1)
     slope = np.interp(clock, record - record[0], course)
     share = cover.interception if cover is not None and cover.kind in AERODYNAMIC else 1.0
-    inside, rise = inside_of(environment, wall), np.zeros((record.size, light.shape[1]))
+    inside, rise = inside_of(environment, wall, plan), np.zeros((record.size, light.shape[1]))
     for path in wall_paths(wall, environment.step, cell_size=settings.cell_size):
         inner = interior_slope(inside, path.grid.interior_area)
         rise += path.fraction * linear_response(

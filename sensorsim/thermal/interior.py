@@ -21,6 +21,7 @@ than here by 0.05 K through the insulated wall, 0.25 K through brick and 0.55 K 
 import numpy as np
 from scipy.signal import lfilter
 
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.errors import InputError
 from sensorsim.materials import INTERIORS, Room
 from sensorsim.thermal.boundary import Inside
@@ -43,14 +44,27 @@ def build_interior(
     *,
     room: Room | None = None,
     heat_gain: float = 0.0,
+    plan: EffectPlan = EVERYTHING,
 ) -> Inside:
     """Interior boundary of a wall for outdoor air (t,) [K] and wind (t,) [m s-1], samples `step` [s] apart.
 
     `heat_gain` is what people, lamps and machines give off [W per m2 of floor]; a closed `room` needs it and its own
-    numbers. Raises InputError for an unknown condition.
+    numbers. Where the plan leaves the interior out, no heat passes the inner face, and its air only shapes the start.
+    Raises InputError for an unknown condition.
     """
     if condition not in INTERIORS:
         raise InputError("wall type", "interior", condition, "unknown condition", f"use one of {', '.join(INTERIORS)}")
+    inside = _behind(condition, air, wind_speed, step, emissivity, room, heat_gain)
+    if plan.has("interior"):
+        return inside
+    return inside._replace(film=np.zeros_like(air), free=0.0, emissivity=0.0)
+
+
+def _behind(
+    condition: str, air: FloatArray, wind_speed: FloatArray, step: float, emissivity: float, room: Room | None,
+    heat_gain: float,
+) -> Inside:  # fmt: skip
+    """What lies behind the wall."""
     free = INTERIOR_FREE**3
     if condition == "open":
         return Inside(air, air, 2.0 + wind_speed, free, emissivity)

@@ -18,6 +18,7 @@ Dew forms on what evaporates, where its surface is colder than the air's dew poi
 import numpy as np
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment, saturation_vapour_pressure
 from sensorsim.materials import Cover, WallType
 from sensorsim.thermal.air_properties import GRAVITY, SPECIFIC_HEAT, air_at, pressure_at
@@ -43,23 +44,25 @@ AERODYNAMIC = ("soil", "plants", "water", "snow")
 
 
 def surface_boundary(
-    environment: Environment, exposure: Exposure, wall: WallType, *, correlation: str = "mowitt"
-) -> Outside:
+    environment: Environment, exposure: Exposure, wall: WallType, *, correlation: str = "mowitt",
+    plan: EffectPlan = EVERYTHING,
+) -> Outside:  # fmt: skip
     """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun."""
     cover = wall.cover
     outside = outside_of(
         environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness, correlation=correlation,
-        length=wall.characteristic_length,
+        length=wall.characteristic_length, plan=plan,
     )  # fmt: skip
     if cover is not None and cover.kind in AERODYNAMIC:
-        film = aerodynamic_film(environment, cover)[:, None] * np.ones(exposure.normal.shape[0])
-        still = np.zeros_like(outside.free)
+        film, still = np.zeros(exposure.irradiance.shape), np.zeros_like(outside.free)
+        if plan.has("forced_convection"):
+            film = aerodynamic_film(environment, cover)[:, None] * np.ones(exposure.normal.shape[0])
         sunlight = cover.interception * exposure.irradiance
         outside = outside._replace(film=film, free=still, free_colder=still, irradiance=sunlight)
     if cover is not None and cover.traffic_heat > 0.0:
         heat = cover.traffic_heat * _by_day(environment) / wall.emissivity  # the balance takes this share of long waves
         outside = outside._replace(longwave=outside.longwave + heat[:, None])
-    return _moisten(environment, exposure, wall, outside)
+    return _moisten(environment, exposure, wall, outside, plan)
 
 
 def aerodynamic_film(environment: Environment, cover: Cover) -> FloatArray:
@@ -113,11 +116,13 @@ def melting_depth(wall: WallType) -> float:
     return wall.layers[0].thickness if wall.cover is not None and wall.cover.kind == "snow" else 0.0
 
 
-def _moisten(environment: Environment, exposure: Exposure, wall: WallType, outside: Outside) -> Outside:
-    """The boundary with rain and evaporation."""
+def _moisten(
+    environment: Environment, exposure: Exposure, wall: WallType, outside: Outside, plan: EffectPlan
+) -> Outside:
+    """The boundary with rain and evaporation; without any film of air nothing takes vapour away."""
     cover, pressure = wall.cover, pressure_at(environment.site.altitude)
     film, wet = outside.film, np.zeros(outside.film.shape)
-    if np.any(environment.precipitation > 0.0):
+    if plan.has("rain") and np.any(environment.precipitation > 0.0):
         caught = caught_rain(environment, exposure.normal)
         capacity = FILM_CAPACITY if cover is None else max(FILM_CAPACITY, LEAF_CAPACITY * cover.leaf_area_index)
         drying = np.cbrt(film**3 + FREE_DIFFERENCE * outside.free)
@@ -126,6 +131,8 @@ def _moisten(environment: Environment, exposure: Exposure, wall: WallType, outsi
     if wall.interior == "none" and (cover is None or cover.kind in ("soil", "road")):
         wet = np.where((environment.ground_state == "wet")[:, None], 1.0, wet)
     film = np.cbrt(film**3 + FREE_DIFFERENCE * outside.free)
+    if not (plan.has("evaporation") and np.any(film > 0.0)):
+        return outside
     share = _evaporating_share(environment, cover, exposure, film, wet)
     if not np.any(share > 0.0):
         return outside

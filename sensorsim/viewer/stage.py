@@ -10,7 +10,7 @@ from sensorsim.frames import Frame, take_frame
 from sensorsim.gpu import create_context
 from sensorsim.radiometry import FloatArray
 from sensorsim.render import Picture, Renderer, World
-from sensorsim.render.renderer import exposed
+from sensorsim.render.picture import exposed
 from sensorsim.sensor import Sensor, tone_curve, window_limits
 from sensorsim.viewer.palettes import Colours, paint, palette_table
 from sensorsim.viewer.state import ViewState

@@ -13,9 +13,5 @@ Kelvin surface_temperature(int wall_type, ivec3 corner, vec3 weight, Ratio refle
         value = (((value * reflectance + power.w) * reflectance + power.z) * reflectance + power.y) * reflectance
               + power.x;
     }
-#if LOBES
     return with_sun(value, wall_type, normal, reflectance);
-#else
-    return value;
-#endif
 }

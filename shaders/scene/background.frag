@@ -2,6 +2,7 @@
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
 // plane of [Report1978] section 3.1.3 through its air path.
 // EMISSIVE 1: thermal bands, 0: reflective bands, whose sky glows around the sun [ISO15469].
+// PATH 1: with the air in between, 0: without.
 // HORIZON 1: of pixels that all look above it, 2: below it, 0: of any.
 // MARKED 1: radiance alone, its sign set: no surface is seen here.
 #include "common/quantities.glsl"
@@ -39,9 +40,13 @@ Radiance background_radiance(Direction view) {
 #if HORIZON == 0
     if (view.z >= 0.0) return sky(view);
 #endif
+#if PATH
     Metre height = max(view_frame.camera_position.z, 0.0);
     Metre range = min(height / -view.z, FARTHEST);
     return apparent_radiance(illumination.ground_radiance, range, -height, extinction, view);
+#else
+    return illumination.ground_radiance;
+#endif
 #endif
 }
 

@@ -1,7 +1,7 @@
 #version 330 core
 // Provides: temperature [K] and band radiance [W m-2 sr-1] of whole surfaces at a moment, a texel each: what does not
 // vary within a surface is computed once. Of surfaces with a gloss only the temperature holds: what they mirror goes
-// with the view. EMISSIVE 1: thermal bands, 0: reflective bands; LOBES 1: tables with lobes of the sun.
+// with the view. EMISSIVE 1: thermal bands, 0: reflective bands.
 #include "radiance/shade.glsl"
 #include "radiance/emitted.glsl"
 #include "radiance/reflected.glsl"

@@ -1,15 +1,18 @@
 #version 330 core
 // Provides: band radiance at the sensor [W m-2 sr-1], surface temperature [K], range [m] and surface id of a surface.
-// EMISSIVE 1: thermal bands, 0: reflective bands.
+// EMISSIVE 1: thermal bands, 0: reflective bands. By the effects that a frame calls for: MIRRORED, in thermal bands, 0:
+// no surroundings, 1: reflected by matt surfaces, 2: by glossy ones too; PATH 1: through the air, 0: as it leaves.
 #include "radiance/path.glsl"
 #include "radiance/emitted.glsl"
 #include "radiance/reflected.glsl"
 
 in vec3 from_camera;
-in vec4 extinction;
 flat in vec4 record[4];
 flat in vec4 last_record;
-#if EMISSIVE
+#if PATH
+in vec4 extinction;
+#endif
+#if EMISSIVE && MIRRORED == 2
 flat in vec4 gloss_record;
 #endif
 flat in int surface_id;
@@ -18,15 +21,25 @@ flat in float temperature;
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
 layout(location = 1) out int id;
 
-void main() {
-    Direction normal = record[0].xyz;
-    Metre range = length(from_camera);
-#if EMISSIVE
-    Radiance source = emitted_radiance(temperature, record[1].w, normal, from_camera / range, gloss_record.xy);
+Radiance leaving(Direction normal, Direction view) {
+#if !EMISSIVE
+    return reflected_radiance(last_record.x, normal, record[3]);
+#elif MIRRORED == 0
+    return own_radiance(temperature, record[1].w);
+#elif MIRRORED == 1
+    return matt_radiance(temperature, record[1].w, normal);
 #else
-    Radiance source = reflected_radiance(last_record.x, normal, record[3]);
+    return emitted_radiance(temperature, record[1].w, normal, view, gloss_record.xy);
 #endif
-    Radiance seen = apparent_radiance(source, range, from_camera.z, extinction, from_camera / range);
+}
+
+void main() {
+    Metre range = length(from_camera);
+    Direction view = from_camera / range;
+    Radiance seen = leaving(record[0].xyz, view);
+#if PATH
+    seen = apparent_radiance(seen, range, from_camera.z, extinction, view);
+#endif
     quantities = vec4(seen, temperature, range, 0.0);
     id = surface_id;
 }

@@ -1,0 +1,63 @@
+"""What the air before a scene can change of a radiance, at most: from its terms, the heights and the longest range."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sensorsim.effects.face import FloatArray
+from sensorsim.environment import AirPath
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class AirBefore:
+    """The air between a camera and all that it may see; heights are above the scene's origin."""
+
+    path: AirPath
+    camera_height: float  # [m]
+    surface_heights: tuple[float, float]  # lowest and highest of surfaces that may be in view [m]
+    longest_range: float  # of them [m]
+    ground_range: float  # of the ground plane where it may be in view [m]; 0 where it is not, infinite at the horizon
+
+    @property
+    def worst_opacity(self) -> float:
+        """1 - tau [-] of the longest path to a surface, or more."""
+        return float(self.path.weight @ self._opacity(self.longest_range, self.surface_heights))
+
+    @property
+    def dimmest(self) -> float:
+        """Least radiance [W m-2 sr-1] of any endless path through it."""
+        return float(self._glow((*self.surface_heights, 0.0))[0].min())
+
+    @property
+    def brightest(self) -> float:
+        """Greatest radiance [W m-2 sr-1] of any endless path through it."""
+        return float(self._glow((*self.surface_heights, 0.0))[1].max())
+
+    def change(self, dimmest: float, brightest: float) -> float:
+        """Greatest change [W m-2 sr-1] of surfaces whose radiance is between these."""
+        return self._change(dimmest, brightest, self.longest_range, self.surface_heights)
+
+    def ground_change(self, radiance: float) -> float:
+        """The same of the ground plane where it may be in view."""
+        return self._change(radiance, radiance, self.ground_range, (0.0,))
+
+    def _change(self, dimmest: float, brightest: float, distance: float, heights: tuple[float, ...]) -> float:
+        """A term takes (1 - t) of a radiance and puts as much of a glow in its place, from those along the path."""
+        least, most = self._glow(heights)
+        apart = np.maximum(np.maximum(brightest - least, most - dimmest), 0.0)
+        return float(self.path.weight @ (self._opacity(distance, heights) * apart))
+
+    def _opacity(self, distance: float, heights: tuple[float, ...]) -> FloatArray:
+        """1 - t (k,) [-] of each term where the air is densest all along the path."""
+        ends = np.array([self.camera_height, *heights])
+        densest = self.path.coefficient * np.exp(-np.outer(ends, self.path.inverse_scale_height)).max(axis=0)
+        depth = np.where(densest > 0.0, distance, 0.0) * np.where(densest > 0.0, densest, 1.0)
+        return np.asarray(-np.expm1(-depth))
+
+    def _glow(self, heights: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+        """Least and greatest source (k,) [W m-2 sr-1] along the path, with the sun behind and straight ahead."""
+        near, slope = self.path.source_at(self.camera_height)
+        along = near + np.outer(np.array([self.camera_height, *heights]) - self.camera_height, slope)
+        g = abs(self.path.asymmetry)
+        ahead = self.path.beam_source * ((1.0 + g * g) / (1.0 - g) ** 2) ** 1.5
+        return along.min(axis=0), along.max(axis=0) + ahead

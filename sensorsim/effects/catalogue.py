@@ -1,0 +1,82 @@
+"""The effects by name: each is one term of the model that can be left out, and what is no term of it at all."""
+
+from dataclasses import dataclass
+
+SURFACE, FRAME = "surface", "frame"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """One term of the model. Without it: see `without`."""
+
+    name: str
+    stage: str  # SURFACE: decided once for a bake; FRAME: for each frame
+    meaning: str
+    without: str  # what the model does then
+    sky: str | None = None  # needs this model of the sky
+    mode: str | None = None  # needs a sensor of this mode
+    part: bool = False  # needs a sensor that has this in its chain
+
+
+def _surface(name: str, meaning: str, without: str, sky: str | None = None, mode: str | None = None) -> Effect:
+    return Effect(name=name, stage=SURFACE, meaning=meaning, without=without, sky=sky, mode=mode)
+
+
+def _frame(name: str, meaning: str, without: str, mode: str | None = None) -> Effect:
+    return Effect(name=name, stage=FRAME, meaning=meaning, without=without, mode=mode)
+
+
+def _part(name: str, meaning: str, without: str) -> Effect:
+    return Effect(name=name, stage=FRAME, meaning=meaning, without=without, part=True)
+
+
+_DARK = "no light from there"
+EFFECTS = (
+    _surface("temperature", "temperature of surfaces", "no wall is solved", mode="reflective"),
+    _surface("direct_sun", "sunlight straight from the sun", _DARK),
+    _surface("sky_dome", "daylight of the uniform dome", _DARK, "perez"),
+    _surface("sky_glow", "daylight of the glow around the sun", _DARK, "perez"),
+    _surface("sky_horizon", "daylight of the bright or dark horizon", _DARK, "perez"),
+    _surface("sky_north", "daylight of the northern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_east", "daylight of the eastern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_south", "daylight of the southern quarter of the sky", _DARK, "quadrants"),
+    _surface("sky_west", "daylight of the western quarter of the sky", _DARK, "quadrants"),
+    _surface("ground_sun", "sunlight from the ground", _DARK),
+    _surface("thermal_sky", "long waves of a sky colder than the air", "a sky as warm as the air"),
+    _surface("ground_exchange", "long waves of a ground warmer or colder than the air", "a ground as warm as the air"),
+    _surface("forced_convection", "the wind's film of air", "no film but the free one"),
+    _surface("free_convection", "the film that a warm or cold surface raises itself", "no film but the forced one"),
+    _surface("rain", "rain on surfaces: its heat, and the film that stays", "surfaces that no rain hits"),
+    _surface("evaporation", "water that evaporates or comes down as dew", "dry surfaces"),
+    _surface("snow", "snow on the ground and its melting", "bare ground"),
+    _surface("exchange", "long waves and light between near surfaces", "each surface alone under its sky"),
+    _surface("interior", "heat from or to what lies behind the wall", "an inner face that no heat passes"),
+    _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
+    _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
+    _frame("reflected_sky", "sky and ground mirrored by surfaces", "no mirrored part", "emissive"),
+    _frame("specular", "mirrors: emissivity by angle, and what lies that way", "matt surfaces", "emissive"),
+    _frame("reflected_sun", "light in band straight from sun or moon, from surfaces", _DARK, "reflective"),
+    _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
+    _part("blur", "optics, motion and size of the detector", "each pixel sees its middle"),
+    _part("noise", "noise and fixed pattern of the detector, and its dead elements", "light and counts alone"),
+    _part("memory", "what the detector keeps of the last picture", "each picture on its own"),
+    _part("streaks", "a channel's level, lost by coupling", "all levels as they are"),
+    _part("halo", "discs of light around bright lights", "none"),
+)  # fmt: skip
+SUNLIGHT = ("direct_sun", *(effect.name for effect in EFFECTS if effect.sky is not None), "ground_sun")
+NAMES = tuple(effect.name for effect in EFFECTS)
+BY_NAME = {effect.name: effect for effect in EFFECTS}
+
+# What no setting can switch on.
+NOT_MODELLED = (
+    "cast shadows, and surfaces in each other's way, except by the optional exchange",
+    "mirrors outside of 8-14 um, so no glint of the sun; and surfaces in each other's mirrors",
+    "conduction along a wall, and across its edges",
+    "blur by motion of the camera or of what it sees, beyond the sensor's own jitter and drift",
+    "scattering of sunlight along the path in emissive bands, turbulence, and polarisation",
+    "weather aloft: above the station the air thins out and cools as in the standard atmosphere",
+    "lamps and fires",
+    "plumes, vehicles and people",
+    "wind that buildings turn aside",
+    "water that runs, ponds or freezes on surfaces, and snow on roofs and trees",
+)

@@ -1,0 +1,32 @@
+"""What one look yields."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.effects import Ledger
+from sensorsim.render.camera import Camera
+from sensorsim.render.illumination import Illumination
+from sensorsim.sensor import DisplaySettings, sampled_surfaces
+
+QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Picture:
+    """What one look yields: planes (height, width), row 0 at the top, and the display window they were shown with."""
+
+    planes: Mapping[str, NDArray[Any]]
+    display: DisplaySettings
+    time_of_day: float  # [s]
+    camera: Camera
+    illumination: Illumination
+    ledger: Ledger | None  # of the effects that are in it; frames for display alone have all, and none
+
+
+def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
+    """Radiances that an automatic gain goes by, of what the detector reports where there is one."""
+    return sampled_surfaces(planes.get("signal", planes["radiance"]), planes["surface_id"] >= 0)

@@ -1,0 +1,184 @@
+"""What is known of a scene under its weather before anything is solved, and which effects that calls for."""
+
+from dataclasses import dataclass, replace
+from datetime import date
+
+from sensorsim.effects import (
+    DEFAULT_NOISE,
+    EFFECTS,
+    NOISE_SHARE,
+    SURFACE,
+    Bound,
+    EffectChoice,
+    EffectPlan,
+    Ledger,
+    Limits,
+    Situation,
+    apparent_factor,
+    applicable,
+    decide,
+    march_cost,
+    surface_bounds,
+    term_cost,
+)
+from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, longest_lead_in
+from sensorsim.materials import Catalogue, WallType, load_catalogue
+from sensorsim.radiometry import build_band_table
+from sensorsim.scene import Scene
+from sensorsim.sensor import Sensor, netd, sensor_parts
+from sensorsim.tables import BakeSettings, resolve_classes
+from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
+from sensorsim.tables.faces import ground_face, scene_faces
+from sensorsim.tables.scope import Scope, scene_scope, whole_scope
+from sensorsim.thermal import Season, season_of
+
+GROUND_CODE = 93  # loam: the ground plane that walls see
+EVERY_EFFECT = EffectChoice(base="all")
+UNSEEN = "the band shows reflected light, not temperature"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Survey:
+    """A scene under its weather, with nothing solved yet."""
+
+    scene: Scene
+    environment: Environment
+    season: Season
+    assignment: Assignment
+    ground: WallType
+    settings: BakeSettings
+    choice: EffectChoice
+    ledger: Ledger  # of the effects of the surface
+    limits: Limits  # temperatures that no surface leaves
+
+    @property
+    def scope(self) -> Scope:
+        """What the bake has to solve."""
+        return _scope(self.environment, self.assignment, self.scene, self.settings, self.ledger.plan)
+
+
+def survey_scene(
+    scene: Scene,
+    weather: Weather,
+    *,
+    image_day: date,
+    settings: BakeSettings,
+    visibility: float = DEFAULT_VISIBILITY,
+    aerosol: str = "rural",
+    catalogue: Catalogue | None = None,
+    choice: EffectChoice = EVERY_EFFECT,
+    sensor: Sensor | None = None,
+) -> Survey:
+    """Survey of a scene for one day; effects by the user's choice and, where that is left open, by their bounds.
+
+    With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
+    """
+    catalogue = load_catalogue() if catalogue is None else catalogue
+    mode = "emissive" if sensor is None else sensor.mode
+    choice = _with_exchange(choice, settings)
+    choice.require_inputs(sky=settings.sky, mode=mode, parts=None if sensor is None else sensor_parts(sensor))
+    lead_in = longest_lead_in(weather, image_day) if settings.lead_in_days is None else settings.lead_in_days
+    environment = build_environment(
+        weather, image_day=image_day, lead_in_days=lead_in, step=settings.step, visibility=visibility, aerosol=aerosol
+    )
+    scene, season = resolve_classes(scene, catalogue), season_of(environment)
+    if choice.asked("snow") is False:
+        season = replace(season, snow=False)
+    assignment = assign_wall_types(scene, catalogue, season)
+    ground = ground_plane(catalogue, season)
+    situation = _situation(environment, scene, assignment, ground, settings)
+    limits = situation.limits
+    effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
+    bounds = _worth(situation, limits, choice, sensor)
+    bounds.update(_spared(environment, assignment, scene, settings))
+    return Survey(
+        scene=scene,
+        environment=environment,
+        season=season,
+        assignment=assignment,
+        ground=ground,
+        settings=settings,
+        choice=choice,
+        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
+        limits=limits,
+    )
+
+
+def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
+    """The plane that walls see: loam, or snow where it lies."""
+    return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+
+
+def tolerance_of(sensor: Sensor | None) -> float:
+    """What effects that are left out may change together [K]: a share of the sensor's NETD, or of a usual one."""
+    stated = sensor is not None and sensor.mode == "emissive" and sensor.detector is not None
+    return NOISE_SHARE * (netd(sensor) if stated and sensor is not None else DEFAULT_NOISE)
+
+
+def _with_exchange(choice: EffectChoice, settings: BakeSettings) -> EffectChoice:
+    """Near surfaces exchange only if asked to, by the settings or by name: that takes longer than all the rest."""
+    asked = settings.exchange or "exchange" in choice.wanted
+    return choice.with_wanted("exchange") if asked else choice.with_refused("exchange")
+
+
+def _situation(
+    environment: Environment, scene: Scene, assignment: Assignment, ground: WallType, settings: BakeSettings
+) -> Situation:
+    """Faces of all orientations that the scene shows; others do not matter to it."""
+    shown = _scope(environment, assignment, scene, settings, EffectPlan(off=("spare_orientations",)))
+    return Situation(
+        environment=environment,
+        faces=scene_faces(environment, assignment, shown, settings),
+        ground=ground_face(environment, ground, settings),
+    )
+
+
+def _scope(
+    environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings, plan: EffectPlan
+) -> Scope:
+    return scene_scope(environment, assignment, scene.surfaces.normal, settings, plan)
+
+
+def _worth(situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None) -> dict[str, Bound]:
+    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
+    bounds = _priced(situation)
+    apart = limits.greatest - limits.coldest
+    bounds["exchange"] = Bound(value=apart, reason="computed where asked for, by name or by the bake's settings")
+    if sensor is not None and sensor.mode == "reflective":
+        if not choice.wants_temperature:
+            unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
+            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN)}
+        return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
+    factor = 1.0
+    if sensor is not None:
+        table = build_band_table(sensor.band)
+        factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest)
+    return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
+
+
+def _priced(situation: Situation) -> dict[str, Bound]:
+    """Bounds with the time that each term takes: a term of light or long waves at every orientation and sample."""
+    orientations = sum(face.normal.shape[0] for face in situation.faces)
+    saves = term_cost(orientations, situation.environment.time.size)
+    return {name: replace(bound, saves=saves) for name, bound in surface_bounds(situation).items()}
+
+
+def _spared(environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
+    """What need not be solved because no surface shows it: exact, and most of the time that a bake takes."""
+    whole = whole_scope(assignment.wall_types, settings).columns
+    turned = EffectPlan(off=("spare_orientations",))
+    seen = _scope(environment, assignment, scene, settings, turned).columns
+    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances")).columns
+    samples, all_needed = environment.time.size, "a spline, the closest three and lobes are made from all of them"
+    return {
+        "spare_orientations": Bound(
+            value=0.0,
+            reason=f"surfaces show {seen} of {whole} histories" if seen < whole else all_needed,
+            saves=march_cost(whole - seen, samples),
+        ),
+        "spare_reflectances": Bound(
+            value=0.0,
+            reason="no light to reflect" if shown < seen else "sunlight tells them apart",
+            saves=march_cost(seen - shown, samples),
+        ),
+    }
