@@ -11,6 +11,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.serve import serve
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
 from sensorsim.cli.wall import wall
@@ -24,7 +25,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
-for command in (render, capture, gallery, diff, scene, wall, info):
+for command in (render, capture, serve, gallery, diff, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("sensitivity")(sensitivity)

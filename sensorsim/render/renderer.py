@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.environment import EnvironmentSample
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
@@ -111,14 +112,19 @@ class Renderer:
             planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )
 
-    def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
+    def illuminate(
+        self, time_of_day: float, camera_height: float = 0.0, *, sample: EnvironmentSample | None = None
+    ) -> Illumination:
+        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m].
+
+        `sample` replaces the weather, sun and sky of the moment.
+        """
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
         return illuminate(
-            self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table,
+            self.sensor, sample or self.world.environment.at(time_of_day), temperature, self.band_table,
             atmosphere=self.atmosphere, camera_height=camera_height,
         )  # fmt: skip
 
