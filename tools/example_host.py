@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sensorsim.scene import load_scene
+from sensorsim.scene import Scene, load_scene
 from sensorsim.trainer import scene_place
 from sensorsim.trainer.decode import decode_message
 from sensorsim.trainer.dialect import CIGI_33
@@ -33,7 +33,8 @@ from sensorsim.trainer.local_place import LocalPlace
 from sensorsim.trainer.ring import RingReader
 
 LOOPBACK = "127.0.0.1"
-START, END = np.array([150.0, -2200.0, 320.0]), np.array([60.0, -320.0, 60.0])  # [m] east, north, up of the origin
+FAR = 2000.0  # [m] from the hospital, where the approach begins
+CLIMB = 300.0  # [m] above its end
 LAP = 60.0  # [s] from the start of the approach to its end, and then again
 WARM_UP = 30  # frames that are not counted: the first pictures compile shaders
 SILENCE = 120.0  # [s] without a Start of Frame, or without a picture, after which the image generator is given up
@@ -73,12 +74,32 @@ class Findings:
         }
 
 
-def ownship(place: LocalPlace, seconds: float) -> Packet:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Approach:
+    """Where it ends and what it is flown at (3,) [m]: the scene's camera of the hospital."""
+
+    place: LocalPlace
+    end: np.ndarray
+    target: np.ndarray
+
+    def position(self, seconds: float) -> np.ndarray:
+        """Straight in from afar, again and again."""
+        left = 1.0 - seconds % LAP / LAP
+        out = (self.end - self.target) / np.linalg.norm(self.end - self.target)
+        return self.end + left * (FAR * out + np.array([0.0, 0.0, CLIMB]))
+
+
+def approach(scene: Scene) -> Approach:
+    station = scene.camera("hospital")
+    end, target = np.asarray(station.position(scene.frame)), np.asarray(station.target(scene.frame))
+    return Approach(place=scene_place(scene), end=end, target=target)
+
+
+def ownship(way: Approach, seconds: float) -> Packet:
     """Entity 0 on its approach, nose at the hospital."""
-    share = seconds % LAP / LAP
-    position = START + share * (END - START)
-    ahead = END + np.array([-60.0, 320.0, -50.0]) - position
-    latitude, longitude, altitude = place.geodetic(position)
+    position = way.position(seconds)
+    ahead = way.target - position
+    latitude, longitude, altitude = way.place.geodetic(position)
     return make_packet(
         CIGI_33, "entity_control", entity_id=0, entity_state=1, lat_xoff=latitude, lon_yoff=longitude,
         alt_zoff=altitude, yaw=math.degrees(math.atan2(ahead[0], ahead[1])) % 360.0,
@@ -98,7 +119,7 @@ def first_words() -> list[Packet]:
 
 
 def fly(
-    link: socket.socket, target: int, ring: RingReader, place: LocalPlace, *, frames: int, process: int | None
+    link: socket.socket, target: int, ring: RingReader, way: Approach, *, frames: int, process: int | None
 ) -> Findings:
     """Answers so many Starts of Frame and looks for each picture."""
     findings, begun, seen = Findings(), 0.0, 0
@@ -106,7 +127,7 @@ def fly(
         number = _start_of_frame(link)
         now = time.monotonic()
         begun = begun or now
-        packets = [ownship(place, now - begun), *(first_words() if count == 0 else [])]
+        packets = [ownship(way, now - begun), *(first_words() if count == 0 else [])]
         control = make_packet(
             CIGI_33, "ig_control", ig_mode=1, timestamp_valid=1, host_frame_number=count, last_ig_frame_number=number,
             timestamp=round(now * 1e5) % 2**32, extrapolation_enable=1,
@@ -192,17 +213,17 @@ def main(words: Sequence[str] | None = None) -> dict[str, float | int | None]:
     parser.add_argument("--ring", type=Path, help="ring of a running image generator")
     parser.add_argument("serve", nargs="*", help="options of `sensorsim serve`, after --")
     asked = parser.parse_args(words)
-    frames, place = round(asked.seconds * asked.rate), scene_place(load_scene("hospital", level="IIIB"))
+    frames, way = round(asked.seconds * asked.rate), approach(load_scene("hospital", level="IIIB"))
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link, tempfile.TemporaryDirectory() as folder:
         link.bind((LOOPBACK, asked.listen))
         link.settimeout(SILENCE)
         if asked.port:
             with wait_for_ring(asked.ring, SILENCE) as ring:
-                found = fly(link, asked.port, ring, place, frames=frames, process=None)
+                found = fly(link, asked.port, ring, way, frames=frames, process=None)
         else:
             path = Path(folder) / "pictures"
             with server(asked.serve, link, path, asked.rate) as (port, process), wait_for_ring(path, SILENCE) as ring:
-                found = fly(link, port, ring, place, frames=frames, process=process)
+                found = fly(link, port, ring, way, frames=frames, process=process)
     figures = found.summary(asked.rate)
     print(json.dumps(figures, indent=1))
     return figures

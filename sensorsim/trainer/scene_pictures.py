@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
-from sensorsim.errors import InputError
+from sensorsim.errors import SensorsimError
 from sensorsim.render import Illumination, Renderer, World
 from sensorsim.sensor import Sensor
 from sensorsim.trainer.background_bake import BackgroundBake, Baked
@@ -97,18 +97,21 @@ class ScenePictures:
         if not control.on:
             return self._black()
         try:
-            camera = view_camera(view)
-        except InputError as error:
+            planes = self._look(request, view, control, device)
+        except SensorsimError as error:  # the host put the view where there is no picture
             self._tell(f"view {view.number} is black: {error}")
             return self._black()
+        return {**planes, "display": mirrored(planes["display"], view.mirror)}
+
+    def _look(self, request: FrameRequest, view: ViewRequest, control: SensorState, device: int) -> Planes:
+        camera = view_camera(view)
         eye = self._eye(view.number, device, frozenset(one.number for one in request.views))
         time = time_of_day(request.moment, self.world.environment.image_start)
         made_of = (int(time), request.air, request.sun, view.visibility)
         if eye.around is None or eye.made_of != made_of:
             eye.around = live_surroundings(eye.renderer, time, request, view.visibility)
             eye.made_of = made_of
-        planes = look(eye.renderer, camera, time, eye.around, control, request.frame)
-        return {**planes, "display": mirrored(planes["display"], view.mirror)}
+        return look(eye.renderer, camera, time, eye.around, control, request.frame)
 
     def _choice(self, view: ViewRequest) -> tuple[SensorState, int]:
         """The first sensor of a view that is on, and which of ours it is; without a word on any, by the view's type."""
