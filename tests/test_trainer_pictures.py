@@ -124,7 +124,7 @@ def test_a_view_from_the_edge_of_the_map_does_not_end_the_session() -> None:
             planes = source(frame(replace(VIEW, position=place)))[0]
             assert planes["display"].shape == (48, 64)
             assert "radiance" not in planes or np.isfinite(planes["radiance"]).all()
-        assert len(said) <= 1
+        assert all("view 0 is black" in text for text in said)
 
 
 def test_a_view_beside_its_axis_looks_at_the_middle_of_its_field() -> None:

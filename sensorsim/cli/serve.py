@@ -74,38 +74,36 @@ def serve(
     backend: Backend = "auto",
 ) -> None:
     """Serve a scene to a trainer's host: CIGI over UDP in, pictures out, at a steady rate."""
-    console, size_of = Console(stderr=True, soft_wrap=True, highlight=False, markup=False), read_size(size)
+    say, size_of = Console(stderr=True, soft_wrap=True, highlight=False, markup=False).print, read_size(size)
     endpoint = Endpoint(address=address, port=port, host=host, host_port=host_port)
     sensors = [load_sensor(name) for name in sensor.split(",")]
     place, moment, settings = load_scene(scene, level=level), read_moment(at), bake_preset(preset)
     series = find_weather(weather, local_day(moment, place.site.utc_offset))
-    day = local_day(moment, series.site.utc_offset)
-    with bake_progress("baking") as progress:
-        world = build_world(place, series, image_day=day, settings=settings, progress=progress)
+    world = _world(place, series, local_day(moment, series.site.utc_offset), settings)
     start = moment if moment.tzinfo else moment.replace(tzinfo=world.environment.image_start.tzinfo)
-    ig = ImageGenerator(
-        _settings(start, len(sensors), cigi, asynchronous), _around(place), utc_offset=series.site.utc_offset
-    )
+    asked = _settings(start, len(sensors), cigi, asynchronous)
+    ig = ImageGenerator(asked, _around(place), utc_offset=series.site.utc_offset)
 
     def told(done: Baked) -> None:
-        console.print(f"bake of {done.request.day}: {done.reason or 'done, in use'}")
+        say(f"bake of {done.request.day}: {done.reason or 'done, in use'}")
         ig.bake_refused(done.reason) if done.world is None else ig.bake_done(done.request)
 
     with ExitStack() as stack:
         stopped = stack.enter_context(_stopped_by_signals())
-        draw = stack.enter_context(
-            ScenePictures(
-                world, sensors, size_of, bake=_baker(place, series, settings), on_bake=told, say=console.print,
-                backend=backend,
-            )
-        )  # fmt: skip
-        draw.prepare(range(len(sensors)))
+        baker = _baker(place, series, settings)
+        draw = ScenePictures(world, sensors, size_of, bake=baker, on_bake=told, say=say, backend=backend)
+        stack.enter_context(draw).prepare(range(len(sensors)))
         out = None if ring is None else stack.enter_context(RingWriter(ring, _kind(ring_kind), size_of))
         link = stack.enter_context(UdpEndpoint(endpoint))
-        console.print(f"serving {place.name} {place.level} on {address}:{link.port} to {host}:{host_port}")
-        deliver = Delivery(ring=out, say=console.print)
+        say(f"serving {place.name} {place.level} on {address}:{link.port} to {host}:{host_port}")
+        deliver = Delivery(ring=out, say=say)
         report = run_session(ig, link, draw, deliver, rate=rate, frames=frames or ENDLESS, stop=stopped.is_set)
-    console.print(_summary(report, link))
+    say(_summary(report, link))
+
+
+def _world(scene: Scene, series: Weather, day: date, settings: BakeSettings) -> World:
+    with bake_progress("baking") as progress:
+        return build_world(scene, series, image_day=day, settings=settings, progress=progress)
 
 
 def _settings(start: datetime, views: int, cigi: str, asynchronous: bool) -> ImageSettings:
