@@ -4,8 +4,8 @@
 
 Action: forward, right and up speed and yaw, pitch and roll rate, each from -1 to 1 of the fastest. Observation:
 `image`, apparent temperature in hundredths of a kelvin of a thermal sensor, display codes of others; `pose`, east,
-north, up of the scene's origin [m] and yaw, pitch, roll [deg]. Reward: cosine of the angle between where the camera looks and the
-scene's target. An episode ends where the camera leaves the bounds of the pose.
+north, up of the scene's origin [m] and yaw, pitch, roll [deg]. Reward: cosine of the angle between where the camera
+looks and the scene's target. An episode ends where the camera leaves the bounds of the pose.
 """
 
 from datetime import datetime
