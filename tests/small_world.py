@@ -19,7 +19,11 @@ from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
 FloatArray = NDArray[np.float64]
 
 DAY = date(1976, 2, 7)
-SETTINGS = BakeSettings(orientations="icosphere42", step=300.0, slice_interval=1800.0, lead_in_days=1.0)
+SETTINGS = BakeSettings(slice_interval=1800.0, lead_in_days=1.0)
+PLAIN = BakeSettings(
+    orientations="icosphere42", interpolation="barycentric", lobes=0.0, reflectances=(0.1, 0.3, 0.5, 0.7, 0.9),
+    degree=4, slice_interval=1800.0, lead_in_days=1.0,
+)  # fmt: skip
 LONGITUDE, LATITUDE = -84.02, 39.82
 
 
@@ -43,8 +47,14 @@ def wall_types() -> tuple[WallType, ...]:
 
 @cache
 def tables() -> ShadeTables:
-    """All four walls baked."""
+    """All four walls baked, as the default has it but for slices and lead-in."""
     return bake_tables(environment(), wall_types(), ground=wall_types()[3], settings=SETTINGS)
+
+
+@cache
+def plain_tables() -> ShadeTables:
+    """The same walls without lobes: straight lines between orientations, a quartic through five reflectances."""
+    return bake_tables(environment(), wall_types(), ground=wall_types()[3], settings=PLAIN)
 
 
 def random_normals(count: int, seed: int = 21) -> FloatArray:

@@ -219,6 +219,32 @@ def test_long_value_is_cut_so_that_the_line_stays_one(refuse: Refuse, tmp_path: 
 
 
 @pytest.mark.parametrize(
+    ("words", "entry", "remedy"),
+    [
+        (("--presets", "best"), "preset = 'best'", "standard"),
+        (("--factors", "degree,luck"), "factor = 'luck'", "orientations"),
+        (("--max-error", "0.2"), "--max-error = '0.2'", "K"),
+        (("--max-error", "0.2s"), "--max-error = '0.2s'", "K"),
+        (("--max-error", "-1K"), "--max-error = '-1K'", "2K"),
+        (("--max-bake", "5K"), "--max-bake = '5K'", "min"),
+        (("--max-bake", "0s"), "--max-bake = '0s'", "2s"),
+        (("--days", "yesterday"), "--days = 'yesterday'", "1976-02-07"),
+        (("--days", ""), "--days = ''", "1976-02-07"),
+        (("--days", "1981-05-01"), "'1981-05-01'", "winter"),
+        (("--level", "IV"), "'IV'", "IA"),
+        (("--weather", "monsoon"), "'monsoon'", "winter"),
+    ],
+)
+def test_study_of_accuracy_refuses_what_it_cannot_measure(
+    refuse: Refuse, tmp_path: Path, words: tuple[str, ...], entry: str, remedy: str
+) -> None:
+    told = refuse("study", "accuracy", "hospital", "--out", tmp_path / "made", *words)
+    assert entry in told
+    assert remedy in told
+    assert not (tmp_path / "made").exists()
+
+
+@pytest.mark.parametrize(
     "words",
     [("--planes", "warmth"), ("--planes", "radiance", "--plane-format", "png"), ("--out", "x.jpg")],
     ids=["plane", "format", "suffix"],

@@ -20,13 +20,16 @@ VIEWS = (
 
 
 def _world(temperature: float, emissivity: float | None) -> World:
-    """The town with every coefficient of the tables set to one temperature [K] and one emissivity, if given."""
+    """The town with tables of one temperature [K] whatever the sun does, and of one emissivity, if given."""
     world = town()
-    coefficients = np.zeros_like(world.tables.coefficients)
-    coefficients[..., 0] = temperature
+    lobes = world.tables.lobes
+    assert lobes is not None
     tables = replace(
         world.tables,
-        coefficients=coefficients,
+        coefficients=np.zeros_like(world.tables.coefficients),
+        level=np.full_like(world.tables.level, temperature),
+        bend=np.zeros_like(world.tables.bend),
+        lobes=replace(lobes, weight=np.zeros_like(lobes.weight)),
         ground_temperature=np.full_like(world.tables.ground_temperature, temperature),
     )
     assignment = world.assignment

@@ -1,13 +1,13 @@
 """Each shader function of the surface pass, alone, against its twin in NumPy."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import moderngl
 import numpy as np
 import pytest
 from glsl_harness import evaluate
-from small_world import random_normals, tables
+from small_world import plain_tables, random_normals, tables
 
 from sensorsim.environment import AirPath, clear_path, single_term
 from sensorsim.gpu import constants_glsl, float_table
@@ -16,8 +16,9 @@ from sensorsim.radiometry import FLIR_BAND, BandTable, build_band_table
 from sensorsim.render.air import air_values
 from sensorsim.render.blocks import AIR, ILLUMINATION
 from sensorsim.render.mirror import mirror_glsl, mirror_table, rise_table
-from sensorsim.tables import LookupTable, evaluate_polynomial, surface_temperature
-from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.tables import LookupTable, ShadeTables, evaluate_polynomial, surface_temperature
+from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels, lobe_texels
+from sensorsim.tables.coefficients import Moment
 from sensorsim.thermal import quadrant_view_factors
 
 COUNT = 3000
@@ -36,28 +37,39 @@ def _light(**changes: Any) -> dict[str, Any]:
     }
 
 
-def _shade(ctx: moderngl.Context, coefficients: np.ndarray, inputs: Mapping[str, np.ndarray]) -> np.ndarray:
-    texture = float_table(ctx, "coefficient_table", coefficient_texels(coefficients))
+def _shade(
+    ctx: moderngl.Context, coefficients: np.ndarray, inputs: Mapping[str, np.ndarray], moment: Moment | None = None
+) -> np.ndarray:
+    most = 0 if moment is None else moment.direction.shape[0] + 2
+    textures = {"coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients))}
+    if moment is not None:
+        textures["lobe_table"] = float_table(ctx, "lobe_table", lobe_texels(moment, most))
     result = evaluate(
-        ctx, "surface_temperature(wall_type, corner.xyz, weight, reflectance)", inputs,
+        ctx, "surface_temperature(wall_type, corner.xyz, weight, reflectance, normal)", inputs,
         include=["radiance/shade.glsl"],
         generated={"coefficients": coefficient_glsl(coefficients.shape[-1])},
-        tables={"coefficient_table": texture},
+        defines={"LOBES": int(moment is not None)},
+        tables=textures,
     )  # fmt: skip
-    texture.release()
+    for texture in textures.values():
+        texture.release()
     return result
 
 
+@pytest.mark.parametrize("made", [tables, plain_tables])
 @pytest.mark.parametrize("time", [0.0, 25200.0, 36000.0, 40500.0, 86400.0])
-def test_shaded_temperature_is_its_twin_within_five_millikelvin(ctx: moderngl.Context, time: float) -> None:
-    """Random normals, walls and reflectances; what single precision leaves is a tenth of what is allowed."""
-    rng, baked = np.random.default_rng(17), tables()
+def test_shaded_temperature_is_its_twin_within_five_millikelvin(
+    ctx: moderngl.Context, made: Callable[[], ShadeTables], time: float
+) -> None:
+    """Random normals, walls and reflectances, with and without lobes; single precision leaves a tenth of it."""
+    rng, baked = np.random.default_rng(17), made()
     normal, wall = random_normals(COUNT), rng.integers(0, 4, COUNT)
     reflectance = rng.uniform(0.02, 0.98, COUNT)
     corner, weight = baked.orientations.locate(normal)
     padded = np.column_stack([corner, np.zeros(COUNT, dtype=np.int64)])
-    inputs = {"wall_type": wall, "corner": padded, "weight": weight, "reflectance": reflectance}
-    shaded = _shade(ctx, baked.at(time), inputs)
+    inputs = {"wall_type": wall, "corner": padded, "weight": weight, "reflectance": reflectance, "normal": normal}
+    moment = baked.at(time)
+    shaded = _shade(ctx, moment.coefficients, inputs, moment if baked.lobes is not None else None)
     assert np.abs(shaded - surface_temperature(baked, normal, wall, reflectance, time)).max() < 5e-4
 
 
@@ -68,7 +80,9 @@ def test_polynomials_of_any_degree_are_read_whole(ctx: moderngl.Context, powers:
     coefficients = rng.uniform(-20.0, 20.0, (2, 6, powers))
     wall, corner = rng.integers(0, 2, 500), rng.integers(0, 6, (500, 4))
     weight, reflectance = rng.dirichlet(np.ones(3), 500), rng.uniform(0.0, 1.0, 500)
-    inputs = {"wall_type": wall, "corner": corner, "weight": weight, "reflectance": reflectance}
+    inputs = {
+        "wall_type": wall, "corner": corner, "weight": weight, "reflectance": reflectance, "normal": random_normals(500)
+    }  # fmt: skip
     blended = np.einsum("mk,mkp->mp", weight, coefficients[wall[:, None], corner[:, :3]])
     np.testing.assert_allclose(_shade(ctx, coefficients, inputs), evaluate_polynomial(blended, reflectance), atol=1e-4)
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_world import SETTINGS, environment, random_normals, tables, wall_types
+from small_world import PLAIN, SETTINGS, environment, plain_tables, random_normals, tables, wall_types
 
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
@@ -25,9 +25,9 @@ SINGLE = 4e-5  # [K] of a temperature near 300 K in single precision
 def _history(wall: WallType, absorptances: np.ndarray) -> np.ndarray:
     """Solved exterior temperatures (t, o, a) [K] at the slices of the tables, as the march gives them."""
     weather = environment()
-    soil = ground_temperature(weather, wall_types()[3], sky=SETTINGS.sky)
-    exposure = expose(weather, orientation_set(SETTINGS.orientations).normal, soil, sky=SETTINGS.sky)
-    outside = surface_boundary(weather, exposure, wall, correlation=SETTINGS.convection)
+    soil = ground_temperature(weather, wall_types()[3], sky=PLAIN.sky)
+    exposure = expose(weather, orientation_set(PLAIN.orientations).normal, soil, sky=PLAIN.sky)
+    outside = surface_boundary(weather, exposure, wall, correlation=PLAIN.convection)
     inside = build_interior(
         wall.interior, weather.air_temperature, weather.wind_speed, weather.step, wall.interior_emissivity
     )
@@ -38,7 +38,7 @@ def _history(wall: WallType, absorptances: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("row", [0, 1, 2, 3])
 def test_shade_at_a_standard_orientation_and_solved_reflectance_is_the_solved_history(row: int) -> None:
     """Rationale: five reflectances determine a quartic, and a standard orientation is its own triangle's corner."""
-    baked, reflectances = tables(), np.array(SETTINGS.reflectances)
+    baked, reflectances = plain_tables(), np.array(PLAIN.reflectances)
     solved = _history(wall_types()[row], 1.0 - reflectances)
     normal = baked.orientations.normal
     for slice_index in (0, 14, 20, 26, 48):
@@ -55,11 +55,12 @@ def test_quartic_in_reflectance_stands_for_the_solved_history() -> None:
     Expected: within 0.1 K, half of all within 1 mK. Largest on a metal skin whose inner film turns as it passes the
     temperature of the room.
     """
-    baked, asked = tables(), np.array([0.05, 0.2, 0.4, 0.6, 0.8, 0.95])
+    baked, asked = plain_tables(), np.array([0.05, 0.2, 0.4, 0.6, 0.8, 0.95])
     for row, wall in enumerate(wall_types()):
         solved = _history(wall, 1.0 - asked)
-        powers = np.vander(asked, SETTINGS.degree + 1, increasing=True)
-        miss = np.abs(baked.coefficients[:, row].astype(np.float64) @ powers.T - solved)
+        level = baked.level[:, row, None, None]
+        powers = np.vander(asked, PLAIN.degree + 1, increasing=True)
+        miss = np.abs(baked.coefficients[:, row].astype(np.float64) @ powers.T + level - solved)
         assert miss.max() < 0.1, wall.name
         assert np.median(miss) < 1e-3, wall.name
 
@@ -86,11 +87,14 @@ def test_fit_with_fewer_powers_is_the_least_squares_one() -> None:
 
 
 def test_tables_are_exact_at_their_slices_and_straight_between_them() -> None:
-    baked = tables()
+    baked = plain_tables()
     for index in (0, 1, 20, 47, 48):
-        np.testing.assert_array_equal(baked.at(1800.0 * index), baked.coefficients[index].astype(np.float64))
-    first, second = baked.at(1800.0 * 20), baked.at(1800.0 * 21)
-    np.testing.assert_allclose(baked.at(1800.0 * 20.25), 0.75 * first + 0.25 * second, rtol=1e-12, atol=1e-12)
+        expected = baked.coefficients[index].astype(np.float64)
+        expected[..., 0] += baked.level[index][:, None]
+        np.testing.assert_array_equal(baked.at(1800.0 * index).coefficients, expected)
+    first, second = baked.at(1800.0 * 20).coefficients, baked.at(1800.0 * 21).coefficients
+    between = baked.at(1800.0 * 20.25).coefficients
+    np.testing.assert_allclose(between, 0.75 * first + 0.25 * second, rtol=1e-12, atol=1e-12)
     assert baked.time_of_day[0] == 0.0
     assert baked.time_of_day[-1] == 86400.0
 
@@ -125,7 +129,7 @@ def test_progress_names_every_wall_once_in_order() -> None:
     told: list[tuple[str, int, int]] = []
     bake_tables(
         environment(), wall_types(), ground=wall_types()[3],
-        settings=replace(SETTINGS, orientations="report10"),
+        settings=replace(SETTINGS, orientations="report26"),
         progress=lambda name, done, total: told.append((name, done, total)),
     )  # fmt: skip
     assert told == [(wall.name, row, 4) for row, wall in enumerate(wall_types(), start=1)]
@@ -148,7 +152,7 @@ def test_ground_of_the_tables_is_the_ground_plane_at_the_slices() -> None:
 
 
 def test_slices_that_fall_between_the_environments_samples_are_refused() -> None:
-    settings = BakeSettings(orientations="report10", step=200.0, slice_interval=400.0, lead_in_days=1.0)
+    settings = BakeSettings(lobes=0.0, step=200.0, slice_interval=400.0, lead_in_days=1.0)
     with pytest.raises(InputError, match=r"slice_interval = 400\.0: no multiple of the environment's step of 300 s"):
         bake_tables(environment(), wall_types()[:1], ground=wall_types()[3], settings=settings)
 

@@ -11,16 +11,22 @@ import pytest
 
 from sensorsim.environment import build_environment, read_weather
 from sensorsim.errors import InputError
-from sensorsim.materials import Catalogue, Coverage, WallPart, WallType, component_shares, load_catalogue
-from sensorsim.materials.mixture import part_reflectance
+from sensorsim.materials import (
+    Catalogue,
+    Coverage,
+    WallPart,
+    WallType,
+    component_shares,
+    load_catalogue,
+    part_reflectances,
+)
 from sensorsim.radiometry import FLIR_BAND, build_band_table
 from sensorsim.scene import load_scene
-from sensorsim.tables import BakeSettings, bake_tables, evaluate_polynomial
+from sensorsim.tables import BakeSettings, bake_tables, surface_temperature
 from sensorsim.tables.assign import assign_wall_types
-from sensorsim.tables.mixture import mix_coefficients
+from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
 
 BLOCKS = (30, 31, 32, 33)
-REFLECTANCES = np.array([0.1, 0.3, 0.5, 0.7, 0.9])
 COVERAGES = [Coverage(roof=roof, tree=tree) for roof, tree in product((None, 0.0, 0.3, 1.0), (None, 0.0, 0.3, 0.8))]
 
 
@@ -31,11 +37,6 @@ def catalogue() -> Catalogue:
 
 def faces() -> Iterator[tuple[int, Coverage, bool]]:
     yield from product(BLOCKS, COVERAGES, (False, True))
-
-
-def coefficients(temperature: float, fall: float) -> np.ndarray:
-    """Coefficients (1, 1, 5) [K] of a wall that is `fall` colder when white than when black."""
-    return np.array([[[temperature, -fall, 0.0, 0.0, 0.0]]])
 
 
 def block(catalogue: Catalogue, parts: list[tuple[int, float, float]]) -> WallType:
@@ -80,23 +81,22 @@ def test_reflectances_of_the_parts_average_to_the_word(catalogue: Catalogue) -> 
         parts = catalogue.wall_type(code, "heated").parts
         mean = sum(part.share * part.reflectance for part in parts)
         for word in (0.0, 0.1, mean, 0.45, 0.99, 1.0):
-            own = [part_reflectance(part.reflectance, mean, word) for part in parts]
+            own = part_reflectances([part.reflectance for part in parts], [part.share for part in parts], [word])[:, 0]
             assert all(-1e-12 <= value <= 1.0 + 1e-12 for value in own)
             assert sum(part.share * value for part, value in zip(parts, own, strict=True)) == pytest.approx(word)
 
 
 def test_equal_components_make_the_component(catalogue: Catalogue) -> None:
-    solved = {catalogue.wall_type(20, "none"): coefficients(300.0, 12.0)}
-    mixed = mix_coefficients(block(catalogue, [(20, 0.6, 0.3), (20, 0.4, 0.3)]), solved, REFLECTANCES)
-    np.testing.assert_allclose(mixed, coefficients(300.0, 12.0), rtol=0.0, atol=1e-8)
+    solved = np.array([300.0, 288.0])
+    mixed = mix_temperatures(block(catalogue, [(20, 0.6, 0.3), (20, 0.4, 0.3)]), [solved, solved])
+    np.testing.assert_allclose(mixed, solved, rtol=1e-13)
 
 
 def test_the_block_lies_between_its_components_and_radiates_as_they_do(catalogue: Catalogue) -> None:
     """Expected: the sum of emitted fourth powers, exactly; 8-14 um radiance says the same within 0.04 K at +-10 K."""
     walls = [catalogue.wall_type(code, "none") for code in (20, 25)]
-    solved = {walls[0]: coefficients(300.0, 0.0), walls[1]: coefficients(280.0, 0.0)}
     made = block(catalogue, [(20, 0.5, 0.3), (25, 0.5, 0.3)])
-    mixed = float(evaluate_polynomial(mix_coefficients(made, solved, REFLECTANCES)[0], np.array([0.3]))[0])
+    mixed = float(mix_temperatures(made, [np.array(300.0), np.array(280.0)]))
     weight = walls[0].emissivity / (walls[0].emissivity + walls[1].emissivity)
     assert 280.0 < mixed < 300.0
     assert mixed**4 == pytest.approx(weight * 300.0**4 + (1.0 - weight) * 280.0**4, rel=1e-9)
@@ -106,18 +106,27 @@ def test_the_block_lies_between_its_components_and_radiates_as_they_do(catalogue
 
 
 def test_the_bake_mixes_what_it_solves_for_the_components(catalogue: Catalogue) -> None:
-    settings = BakeSettings(orientations="report10", step=1800.0, slice_interval=7200.0, lead_in_days=1.0)
+    settings = BakeSettings(
+        orientations="report10", interpolation="barycentric", lobes=0.0, step=1800.0, slice_interval=7200.0,
+        lead_in_days=1.0, reflectances=(0.1, 0.3, 0.5, 0.7, 0.9), degree=4,
+    )  # fmt: skip
     weather = read_weather("fall")
     environment = build_environment(weather, image_day=date(1976, 10, 7), lead_in_days=1.0, step=1800.0)
     made = catalogue.wall_type(30, "heated", coverage=Coverage(roof=0.3, tree=0.3))
     own = [part.wall for part in made.parts]
     ground = catalogue.wall_type(93, "none")
     tables = bake_tables(environment, [made, *own], ground=ground, settings=settings)
-    solved = {wall: tables.coefficients[:, row].astype(np.float64) for row, wall in enumerate(own, start=1)}
-    expected = mix_coefficients(made, solved, np.asarray(settings.reflectances))
-    values = [tables.coefficients[:, 0].astype(np.float64), expected]
-    powers = np.vander(REFLECTANCES, 5, increasing=True).T
-    np.testing.assert_allclose(values[0] @ powers, values[1] @ powers, atol=2e-3)
+    normal = tables.orientations.normal
+    count = normal.shape[0]
+    for word, hour in product((0.1, 0.3, 0.9), (8.0, 12.0)):
+        fourth = np.zeros(count)
+        own_reflectances = mixed_reflectances(made, np.array([word]))[:, 0]
+        for row, part in enumerate(made.parts, start=1):
+            own_reflectance = np.full(count, own_reflectances[row - 1])
+            shade = surface_temperature(tables, normal, np.full(count, row), own_reflectance, 3600.0 * hour)
+            fourth += part.share * part.wall.emissivity / made.emissivity * shade**4
+        block_shade = surface_temperature(tables, normal, np.zeros(count, int), np.full(count, word), 3600.0 * hour)
+        np.testing.assert_allclose(block_shade, fourth**0.25, atol=2e-3)
     assert made.emissivity == pytest.approx(sum(part.share * part.wall.emissivity for part in made.parts))
 
 
@@ -152,3 +161,13 @@ def test_a_mixture_that_cannot_be_is_refused(tmp_path: Path, mixture: str, probl
     (tmp_path / "own.toml").write_text(wall + "[[material]]\ncode = 2\n" + plain + f"mixture = {mixture}\n")
     with pytest.raises(InputError, match=problem):
         load_catalogue(tmp_path)
+
+
+def test_reflectances_of_the_parts_go_smoothly_with_the_word_and_are_their_own_at_the_mean() -> None:
+    own, share = [0.1, 0.35, 0.8], [0.5, 0.3, 0.2]
+    mean = float(np.dot(own, share))
+    np.testing.assert_allclose(part_reflectances(own, share, np.array([mean]))[:, 0], own, atol=1e-9)
+    words = np.linspace(0.01, 0.99, 981)
+    slope = np.diff(part_reflectances(own, share, words), axis=1) / np.diff(words)
+    assert slope.min() > 0.0
+    assert np.abs(np.diff(slope, axis=1)).max() < 0.02  # a kink would step by 0.3

@@ -12,6 +12,7 @@ from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
 from sensorsim.cli.serve import serve
+from sensorsim.cli.study_accuracy import accuracy
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
 from sensorsim.cli.wall import wall
@@ -28,6 +29,7 @@ app = typer.Typer(
 for command in (render, capture, serve, gallery, diff, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
+study.command("accuracy")(accuracy)
 study.command("sensitivity")(sensitivity)
 study.command("stability")(stability)
 app.add_typer(study, name="study")

@@ -16,7 +16,7 @@ from sensorsim.tables.bake import Progress as BakeProgress
 
 SceneName = Annotated[str, typer.Argument(help="Scene that comes with the package, or a GeoJSON file.")]
 Level = Annotated[str, typer.Option(help="Level of detail: IA, IIA or IIIB.")]
-Preset = Annotated[str, typer.Option(help="How finely to bake: report, standard or reference.")]
+Preset = Annotated[str, typer.Option(help="How finely to bake: draft, report, standard or reference.")]
 Backend = Annotated[str, typer.Option(help="OpenGL back end: auto, egl, osmesa or x11.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print figures as JSON.")]
 

@@ -98,7 +98,7 @@ def render(
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
     with Renderer(world, device, size=pixels, backend=backend, atmosphere=air) as renderer:
-        frame = take_frame(renderer, view, moment, display=display)
+        frame = take_frame(renderer, view, moment, display=display, fit_error="fit_error" in wanted)
     files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)
 

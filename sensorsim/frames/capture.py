@@ -8,6 +8,7 @@ import numpy as np
 
 from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.errors import InputError
+from sensorsim.frames.fit_error import fit_error_plane, surface_fit_error
 from sensorsim.frames.frame import JSON, STANDARD_PLANES, Frame, build_frame
 from sensorsim.frames.writer import inputs_sha256
 from sensorsim.render import Camera, Picture, Renderer
@@ -23,17 +24,26 @@ def take_frame(
     *,
     display: DisplaySettings | None = None,
     frame: int = 0,
+    fit_error: bool = False,
 ) -> Frame:
     """Frame at a local standard time (or one with an offset, or seconds after midnight) of the world's image day.
 
-    frame: its number in a sequence, which decides its noise.
+    frame: its number in a sequence, which decides its noise. With `fit_error` it has a plane of that name, for which
+    all surfaces are solved in full: that takes seconds.
     """
     time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
     picture = renderer.render(camera, time_of_day, display=display, frame=frame)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
-    return build_frame(
-        picture.planes, {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
-    )
+    settings: dict[str, JSON] = {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
+    if not fit_error:
+        return build_frame(picture.planes, settings)
+    error = surface_fit_error(renderer.world, time_of_day)
+    plane = fit_error_plane(error, picture.planes["surface_id"])
+    told: dict[str, JSON] = {
+        "of": "tables less full solve, without sign",
+        "largest_of_all_surfaces_K": float(error.max()),
+    }
+    return build_frame({**picture.planes, "fit_error": plane}, {**settings, "fit_error": told})
 
 
 def plane_names(sensor: Sensor) -> tuple[str, ...]:

@@ -1,8 +1,8 @@
 """A frame: named planes of the same shape with their units, and the settings that they were made with.
 
 A pixel that sees no surface (the sky) has a finite stand-in in the planes that describe surfaces: `surface_id` and
-`feature` -1, `range` 0 m, `surface_temperature` 0 K. No visible surface has any of them. Radiance, apparent
-temperature and display hold the sky's own values.
+`feature` -1, `range` 0 m, `surface_temperature` 0 K, `fit_error` -1 K. No visible surface has any of them. Radiance,
+apparent temperature and display hold the sky's own values.
 """
 
 from collections.abc import Mapping, Sequence
@@ -79,9 +79,9 @@ class Frame:
 def build_frame(arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping[str, JSON]) -> Frame:
     """Frame of images (height, width) under the standard names, with their units and descriptions.
 
-    Names: display, radiance, signal, apparent_temperature, surface_temperature, surface_id, feature, range. Display
-    becomes uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and for
-    data that the plane's type cannot hold.
+    Names: display, radiance, signal, apparent_temperature, surface_temperature, surface_id, feature, fit_error, range.
+    Display becomes uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and
+    for data that the plane's type cannot hold.
     """
     planes = {}
     for name, data in arrays.items():
@@ -112,5 +112,6 @@ STANDARD_PLANES: Mapping[str, tuple[type[np.generic], str, str, float | None]] =
     "surface_temperature": (np.float64, "K", "temperature of the surface seen, 0 where there is none", 0.0),
     "surface_id": (np.int32, "1", "row of the surface seen, -1 where there is none", -1.0),
     "feature": (np.int32, "1", "row of the feature seen, -1 where there is none", -1.0),
+    "fit_error": (np.float64, "K", "the tables' error for the surface seen at the time, -1 where there is none", -1.0),
     "range": (np.float64, "m", "distance from the sensor to the surface seen, 0 where there is none", 0.0),
 }

@@ -62,7 +62,10 @@ def draw_block(renderer: Renderer, shots: Sequence[Shot], numbers: range, option
     """Draw the frames of a block and write those that are missing; returns how many these were."""
     missing = [number for number in numbers if not _is_complete(renderer, shots[number], options)]
     for shot in _needed(renderer.sensor, shots, missing, numbers):
-        frame = take_frame(renderer, shot.camera, shot.time_of_day, display=options.display, frame=shot.number)
+        frame = take_frame(
+            renderer, shot.camera, shot.time_of_day, display=options.display, frame=shot.number,
+            fit_error="fit_error" in options.planes,
+        )  # fmt: skip
         if shot.number in missing:
             path = frame_path(options, renderer.sensor, shot.number)
             write_frame(frame, path, planes=options.planes, plane_format=options.plane_format)

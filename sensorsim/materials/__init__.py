@@ -13,7 +13,7 @@ from sensorsim.materials.cover import Cover, Leafless
 from sensorsim.materials.entry import Choice, Quantity
 from sensorsim.materials.layers import SHAPES, Layer, ThermalPath
 from sensorsim.materials.material import ROUGHNESS_CLASSES, Material
-from sensorsim.materials.mixture import Component, Coverage, component_shares, part_reflectance
+from sensorsim.materials.mixture import Component, Coverage, component_shares, part_reflectances
 from sensorsim.materials.optical import nir_reflectance
 from sensorsim.materials.readings import Reading
 from sensorsim.materials.wall_type import ENCLOSED, INTERIORS, Room, WallPart, WallType
@@ -47,5 +47,5 @@ __all__ = [
     "load_construction",
     "nir_reflectance",
     "parse_word",
-    "part_reflectance",
+    "part_reflectances",
 ]

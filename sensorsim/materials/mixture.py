@@ -3,10 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import expit
+
 from sensorsim.materials.entry import FRACTION, Entry
 
 PARTS = ("roof", "tree", "open", "wall")  # what a component is; walls show on sides only, roofs and open ground on tops
 HIGHEST_SHARE_ERROR = 1e-6
+LEAST = 1e-6  # reflectance and absorptance that a component is taken to have at least [-]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,12 +83,21 @@ def _cover_parts(own: Mapping[str, float], coverage: Coverage) -> dict[str, floa
     return {part: held.get(part, 0.0) / total for part in own}
 
 
-def part_reflectance(own: float, mean: float, reflectance: float) -> float:
-    """Solar reflectance [-] of a component whose own is `own`, in a block of `mean` that a word calls `reflectance`.
+def part_reflectances(
+    own: Sequence[float], share: Sequence[float], reflectance: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Solar reflectances (parts, r) [-] of components in a block that words call `reflectance` (r,).
 
-    Darker than the mean all reflectances shrink in proportion, brighter all absorptances do: each stays within 0 and 1
-    and the mean over the area is the word's.
+    All components' odds, r / (1 - r), are their own times one factor, so that each stays within 0 and 1, the mean over
+    the area is the word's, and all go smoothly with it: a kink would be more than a few reflectances can follow.
     """
-    if reflectance <= mean:
-        return own * reflectance / mean if mean > 0.0 else reflectance
-    return 1.0 - (1.0 - own) * (1.0 - reflectance) / (1.0 - mean)
+    odds = np.log(np.clip(own, LEAST, 1.0 - LEAST)) - np.log1p(-np.clip(own, LEAST, 1.0 - LEAST))
+    area = np.asarray(share, dtype=np.float64)
+
+    def at(word: float) -> NDArray[np.float64]:
+        if not LEAST < word < 1.0 - LEAST:
+            return np.full(odds.size, word)
+        factor = brentq(lambda x: float(area @ expit(odds + x)) - word, -50.0, 50.0, xtol=1e-13)
+        return np.asarray(expit(odds + factor))
+
+    return np.stack([at(float(word)) for word in reflectance], axis=1)

@@ -15,6 +15,7 @@ TEXTURE_UNITS = {
     "band_radiance_table": 2,
     "sky_radiance_table": 3,
     "radiance_picture": 4,
+    "lobe_table": 12,
     "product_picture": 5,
     "focal_plane": 6,
     "kernel_table": 7,
@@ -60,16 +61,25 @@ class Pass:
         self.program.release()
 
 
-def surface_pass(ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+def surface_pass(
+    ctx: moderngl.Context, mesh: MeshBuffers, generated: Mapping[str, str], *, emissive: bool, lobes: bool
+) -> Pass:
     """Surfaces of the scene: band radiance [W m-2 sr-1], temperature [K], range [m], id."""
     return Pass(
         ctx,
         "scene/surface.vert",
         "scene/surface.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-        samplers=("surface_table", "coefficient_table", "band_radiance_table", "rise_table", "mirror_table"),
+        samplers=(
+            "surface_table",
+            "coefficient_table",
+            "band_radiance_table",
+            "rise_table",
+            "mirror_table",
+            *(("lobe_table",) if lobes else ()),
+        ),
         generated={**generated, "constants": constants_glsl()},
-        defines={"EMISSIVE": int(emissive)},
+        defines={"EMISSIVE": int(emissive), "LOBES": int(lobes)},
         mesh=mesh,
     )
 

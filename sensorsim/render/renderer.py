@@ -32,7 +32,7 @@ from sensorsim.sensor import (
     window_limits,
 )
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels
+from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
 _BLOCKS = (VIEW_FRAME, ILLUMINATION, AIR, DISPLAY)
 FILLED = 0.8  # of the detector's range, that an automatic iris aims at
@@ -131,28 +131,28 @@ class Renderer:
     def _build(self) -> None:
         ctx, world = self.ctx, self.world
         mesh, records = world.scene.mesh, self._records(0.0)
-        coefficients = world.tables.coefficients[0]
         band = self._band_lookup()
         skies = (dark().sky_table(), *dark().glow_tables())
         self._tables = {
             "surface_table": float_table(ctx, "surface_table", records),
-            "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),
             "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
             **{f"{table.name}_table": float_table(ctx, table.name, table.texels) for table in skies},
             "rise_table": float_table(ctx, "rise_table", rise_table()),
             "mirror_table": float_table(ctx, "mirror_table", dark().mirror_table()),
         }
+        self._tables_at = 0.0
+        for name, texels in shade_texels(world.tables, self._tables_at).items():
+            self._tables[name] = float_table(ctx, name, texels)
         generated = {
-            "coefficients": coefficient_glsl(coefficients.shape[-1]),
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
             "band_radiance": band.glsl(),
             **{table.name: table.glsl() for table in skies},
             "mirror_size": mirror_glsl(),
         }
-        buffers = mesh_buffers(
-            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, mesh.triangle
-        )
-        emissive = self.sensor.mode == "emissive"
-        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive)
+        vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
+        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
+        buffers = mesh_buffers(ctx, vertices, mesh.triangle)
+        self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
         self._background = background_pass(ctx, generated, emissive=emissive)
         self._build_targets()
 
@@ -193,8 +193,7 @@ class Renderer:
     def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
         if self.world.offsets is not None:
             update_table(self._tables["surface_table"], self._records(time_of_day))
-        coefficients = self.world.tables.at(time_of_day)
-        update_table(self._tables["coefficient_table"], coefficient_texels(coefficients))
+        self._set_tables(time_of_day)
         for table in (illumination.sky_table(), *illumination.glow_tables()):
             update_table(self._tables[f"{table.name}_table"], table.texels)
         update_table(self._tables["mirror_table"], illumination.mirror_table())
@@ -207,6 +206,14 @@ class Renderer:
                 ground_radiance=illumination.ground_radiance,
             )
         )
+
+    def _set_tables(self, time_of_day: float) -> None:
+        """Upload the tables of a moment, where the clock has moved."""
+        if time_of_day == self._tables_at:
+            return
+        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+            update_table(self._tables[name], texels)
+        self._tables_at = time_of_day
 
     def _draw(self, camera: Camera, illumination: Illumination) -> None:
         position = self.world.scene.mesh.position

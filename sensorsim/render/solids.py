@@ -1,5 +1,6 @@
 """Moving things among the surfaces: triangles with a temperature each, placed anew for every frame."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import moderngl
@@ -7,10 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import InputError
-from sensorsim.render.passes import Pass
+from sensorsim.gpu import bind_samplers, build_program, constants_glsl
+from sensorsim.render.blocks import AIR, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.passes import TEXTURE_UNITS
 
-_FORMAT = "3f 3f 4f 3f 1i"
-_NAMES = ("position", "normal", "sky_quarters", "nature", "surface")
+# Of a vertex: name in the shader, components, type
+_ATTRIBUTES = (("position", 3, "f"), ("normal", 3, "f"), ("sky_quarters", 4, "f"), ("nature", 3, "f"), ("surface", 1, "i"))
+_ROW = np.dtype([(name, f"<{kind}4", (count,)) for name, count, kind in _ATTRIBUTES])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -33,7 +37,7 @@ class Solids:
         """Refuse what differs in length or is not finite."""
         for field in fields(self):
             values = getattr(self, field.name)
-            if len(values) != len(self.triangles) or not np.isfinite(values).all():
+            if len(values) != len(self.triangles) or len(values) == 0 or not np.isfinite(values).all():
                 raise InputError("solids", field.name, values.shape, "not finite, or not one a triangle", "give all")
 
     def vertices(self, first: int) -> bytes:
@@ -43,37 +47,35 @@ class Solids:
         record["normal"] = self.normal[:, None]
         record["sky_quarters"] = self.quarters[:, None]
         record["nature"] = np.stack([self.temperature, self.emissivity, self.reflectance], axis=1)[:, None]
-        record["surface"] = (first + self.number)[:, None]
+        record["surface"] = (first + self.number)[:, None, None]
         return record.tobytes()
-
-
-_ROW = np.dtype(
-    [("position", "<f4", 3), ("normal", "<f4", 3), ("sky_quarters", "<f4", 4), ("nature", "<f4", 3), ("surface", "<i4")]
-)
 
 
 class SolidPass:
     """The program of solids and a buffer that grows with what there is to draw."""
 
-    def __init__(self, ctx: moderngl.Context, program: moderngl.Program) -> None:
-        self._ctx, self._program = ctx, program
+    def __init__(self, ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool) -> None:
+        samplers = ("band_radiance_table", "rise_table", "mirror_table")
+        self._ctx = ctx
+        self._program = build_program(
+            ctx, vertex="scene/solid.vert", fragment="scene/solid.frag", defines={"EMISSIVE": int(emissive)},
+            generated={**generated, "constants": constants_glsl()}, blocks=(VIEW_FRAME, ILLUMINATION, AIR),
+            samplers=samplers,
+        )  # fmt: skip
+        bind_samplers(self._program, {name: TEXTURE_UNITS[name] for name in samplers})
+        read = [name for name in _ROW.names or () if name in self._program]
+        self._names = read
+        self._layout = " ".join(f"{count}{kind if name in read else 'x4'}" for name, count, kind in _ATTRIBUTES)
         self._buffer: moderngl.Buffer | None = None
         self._array: moderngl.VertexArray | None = None
 
     def draw(self, solids: Solids, first: int) -> None:
-        """Draws into the target in use, which has a depth."""
+        """Draws into the target in use, which has a depth; ids of surfaces go on from `first`."""
         data = solids.vertices(first)
-        if not data:
-            return
         if self._buffer is None or self._array is None or self._buffer.size < len(data):
             self.release()
             self._buffer = self._ctx.buffer(reserve=2 * len(data))
-            names = [name for name in _NAMES if name in self._program]
-            layout = " ".join(
-                part if name in names else f"{part[0]}x{4}"
-                for name, part in zip(_NAMES, _FORMAT.split(), strict=True)
-            )
-            self._array = self._ctx.vertex_array(self._program, [(self._buffer, layout, *names)])
+            self._array = self._ctx.vertex_array(self._program, [(self._buffer, self._layout, *self._names)])
         self._buffer.write(data)
         self._array.render(vertices=3 * len(solids.triangles))
 
@@ -83,8 +85,3 @@ class SolidPass:
             if held is not None:
                 held.release()
         self._array = self._buffer = None
-
-
-def solid_program(made: Pass) -> moderngl.Program:
-    """The program of a pass."""
-    return made.program

@@ -14,7 +14,7 @@ from sensorsim.environment import (
     longest_lead_in,
     place_mismatch,
 )
-from sensorsim.materials import Catalogue, load_catalogue
+from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.scene import Scene
 from sensorsim.tables import (
     BakeSettings,
@@ -47,6 +47,11 @@ class World:
     warnings: tuple[str, ...]  # what a user should know of the inputs
 
 
+def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
+    """The plane that walls see: loam, or snow where it lies."""
+    return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+
+
 def build_world(
     scene: Scene,
     weather: Weather,
@@ -70,7 +75,7 @@ def build_world(
     )
     scene, season = resolve_classes(scene, catalogue), season_of(environment)
     assignment = assign_wall_types(scene, catalogue, season)
-    ground = catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
+    ground = ground_plane(catalogue, season)
     tables = cached_tables(environment, assignment.wall_types, ground=ground, settings=settings, progress=progress)
     tabled = inputs_digest(environment, assignment.wall_types, ground, settings)
     offsets = None

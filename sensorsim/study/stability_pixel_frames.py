@@ -84,11 +84,11 @@ def _range_miss(distance: float) -> float:
 def _enclosure(distance: float) -> float:
     """How far the apparent temperature of an isothermal enclosure is from its temperature, through haze."""
     kelvin, world = 288.15, small_world()
-    coefficients = np.zeros_like(world.tables.coefficients)
-    coefficients[..., 0] = kelvin
     tables = replace(
         world.tables,
-        coefficients=coefficients,
+        coefficients=np.zeros_like(world.tables.coefficients),
+        level=np.full_like(world.tables.level, kelvin),
+        lobes=None,
         ground_temperature=np.full_like(world.tables.ground_temperature, kelvin),
     )
     radiance = float(build_band_table(load_sensor("flir").band).radiance_at(kelvin))

@@ -3,7 +3,8 @@
 from sensorsim.tables.bake import bake_tables
 from sensorsim.tables.cache import CACHE_VARIABLE, cache_folder, cached_tables
 from sensorsim.tables.classes import resolve_classes
-from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
+from sensorsim.tables.coefficients import Moment, ShadeTables, fit_polynomials
+from sensorsim.tables.lobes import Lobes
 from sensorsim.tables.lookup_table import LookupTable
 from sensorsim.tables.near_surfaces import SurfaceOffsets, near_surface_offsets
 from sensorsim.tables.orientations import LAYOUTS, OrientationSet, orientation_set
@@ -15,7 +16,9 @@ __all__ = [
     "LAYOUTS",
     "PRESETS",
     "BakeSettings",
+    "Lobes",
     "LookupTable",
+    "Moment",
     "OrientationSet",
     "ShadeTables",
     "SurfaceOffsets",

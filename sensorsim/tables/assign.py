@@ -12,11 +12,11 @@ from sensorsim.materials import (
     Section,
     WallType,
     nir_reflectance,
-    part_reflectance,
 )
 from sensorsim.materials.material import OUTDOOR_GROUPS
 from sensorsim.scene import Feature, Scene
 from sensorsim.tables.classes import resolve_classes
+from sensorsim.tables.mixture import mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.season import Season
 
@@ -93,13 +93,10 @@ def _coverage(feature: Feature) -> Coverage:
 def _nir_reflectance(catalogue: Catalogue, wall: WallType, reflectance: float, *, leafless: bool) -> float:
     """Reflectance in 0.8-1.1 um [-]: of a block the mean of its parts, of a bare crown that of its bark."""
     if wall.parts:
-        mean = sum(part.share * part.reflectance for part in wall.parts)
+        own_parts = mixed_reflectances(wall, np.array([reflectance]))[:, 0]
         return sum(
-            part.share
-            * _nir_reflectance(
-                catalogue, part.wall, part_reflectance(part.reflectance, mean, reflectance), leafless=leafless
-            )
-            for part in wall.parts
+            part.share * _nir_reflectance(catalogue, part.wall, float(own), leafless=leafless)
+            for part, own in zip(wall.parts, own_parts, strict=True)
         )
     material = catalogue.material(wall.code)
     own = nir_reflectance(material, reflectance)

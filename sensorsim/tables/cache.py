@@ -19,15 +19,16 @@ import numpy as np
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.bake import Progress, bake_tables
-from sensorsim.tables.coefficients import ShadeTables
-from sensorsim.tables.orientations import orientation_set
+from sensorsim.tables.coefficients import ShadeTables, lookup_orientations
+from sensorsim.tables.lobes import Lobes
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.lead_in import lead_in_of
 
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
 _SEEN_ONLY = ("visibility", "aerosol")  # bear on what a sensor sees, not on how warm a wall is
-_ARRAYS = ("time_of_day", "coefficients", "ground_temperature")
+_ARRAYS = ("time_of_day", "coefficients", "level", "bend", "ground_temperature")
+_LOBES = ("sun", "direction", "weight")
 _CODE = ("constants.py", "environment", "materials", "thermal", "tables")
 
 
@@ -44,15 +45,16 @@ def cached_tables(
     if folder is None:
         return bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
     path = folder / f"{inputs_digest(environment, wall_types, ground, settings)}.npz"
-    arrays = _read(path)
+    arrays = _read(path, (*_ARRAYS, *_LOBES) if settings.lobes else _ARRAYS)
     if arrays is not None:
         return ShadeTables(
             day=environment.image_start.date(),
             wall_types=tuple(wall_types),
-            orientations=orientation_set(settings.orientations),
+            orientations=lookup_orientations(settings),
+            lobes=Lobes(**{name: arrays[name] for name in _LOBES}) if settings.lobes else None,
             settings=settings,
             lead_in=tuple(lead_in_of(wall, environment, own=settings.lead_in_days is None) for wall in wall_types),
-            **arrays,
+            **{name: arrays[name] for name in _ARRAYS},
         )
     tables = bake_tables(environment, wall_types, ground=ground, settings=settings, progress=progress)
     _write(path, tables)
@@ -91,17 +93,17 @@ def inputs_digest(
 
 def _arrays_digest(arrays: dict[str, Any]) -> str:
     digest = hashlib.sha256()
-    for name in _ARRAYS:
+    for name in arrays:
         digest.update(f"{name}{arrays[name].dtype}{arrays[name].shape}".encode())
         digest.update(np.ascontiguousarray(arrays[name]).tobytes())
     return digest.hexdigest()
 
 
-def _read(path: Path) -> dict[str, Any] | None:
+def _read(path: Path, names: Sequence[str]) -> dict[str, Any] | None:
     """Arrays of a cache file, or None where there is none that can be trusted."""
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as file:
-            arrays = {name: file[name] for name in _ARRAYS}
+            arrays = {name: file[name] for name in names}
             sound = str(file["digest"]) == _arrays_digest(arrays)
         os.utime(path)
     except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile):
@@ -112,6 +114,8 @@ def _read(path: Path) -> dict[str, Any] | None:
 def _write(path: Path, tables: ShadeTables) -> None:
     """Put a cache file in place; a folder that cannot be written is no error, only no cache."""
     arrays = {name: getattr(tables, name) for name in _ARRAYS}
+    if tables.lobes is not None:
+        arrays |= {name: getattr(tables.lobes, name) for name in _LOBES}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with NamedTemporaryFile(dir=path.parent, suffix=".partial", delete=False) as file:

@@ -1,8 +1,9 @@
-"""The coefficient matrix of one moment as a texture, and the GLSL that reads it."""
+"""The tables of one moment as textures, and the GLSL that reads them."""
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.tables.coefficients import Moment, ShadeTables
 from sensorsim.tables.orientations import FloatArray
 
 POWERS_PER_TEXEL = 4
@@ -27,3 +28,23 @@ def coefficient_glsl(powers: int) -> str:
         "    return texelFetch(coefficient_table, ivec2(orientation * COEFFICIENT_GROUPS + group, wall_type), 0);\n"
         "}\n"
     )
+
+
+def shade_texels(tables: ShadeTables, time_of_day: float) -> dict[str, NDArray[np.float32]]:
+    """Texels of all that the shade of a time [s] is made from, by the name of the sampler."""
+    moment = tables.at(time_of_day)
+    texels = {"coefficient_table": coefficient_texels(moment.coefficients)}
+    if tables.lobes is not None:
+        texels["lobe_table"] = lobe_texels(moment, tables.lobes.most)
+    return texels
+
+
+def lobe_texels(moment: Moment, most: int) -> NDArray[np.float32]:
+    """Texels (1 + w, 1 + most, 4) of the lobes of a moment, `most` or fewer; layout in shaders/radiance/lobes.glsl."""
+    walls, count = moment.weight.shape[:2]
+    texels = np.zeros((1 + walls, 1 + most, 4), dtype=np.float32)
+    texels[0, 0, 0] = count
+    texels[0, 1 : 1 + count, :3] = moment.direction
+    texels[1:, 0, 0], texels[1:, 0, 1] = moment.level, moment.bend
+    texels[1:, 1 : 1 + count, :2] = moment.weight
+    return texels

@@ -4,8 +4,9 @@ Section 3.6.1 of [Report1978] calls it four coefficients of a fourth-degree poly
 reflectances determine it. The fit is least squares, so it may also have fewer powers than samples.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +14,22 @@ from numpy.typing import NDArray
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
-from sensorsim.tables.orientations import FloatArray, OrientationSet
+from sensorsim.tables.lobes import Lobes
+from sensorsim.tables.orientations import FloatArray, OrientationSet, orientation_set
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.tables.spline import dense_layout, spline_matrix
 from sensorsim.thermal.lead_in import LeadIn
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Moment:
+    """The tables of one moment, at the orientations that are looked up."""
+
+    coefficients: FloatArray  # (w, o, p) of the powers of reflectance [K] above `level`
+    level: FloatArray  # (w,) [K]; 0 without lobes
+    bend: FloatArray  # (w,) [K-1], see `straighten`
+    direction: FloatArray  # (l, 3) of the lobes
+    weight: FloatArray  # (w, l, 2) of the lobes, powers 0 and 1 of the reflectance [K]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -25,16 +39,39 @@ class ShadeTables:
     day: date
     time_of_day: FloatArray  # (t,) of the slices, local standard time [s]
     wall_types: tuple[WallType, ...]
-    orientations: OrientationSet
-    coefficients: NDArray[np.float32]  # (t, w, o, p) of the powers of reflectance [K]
+    orientations: OrientationSet  # that are looked up: the solved ones, or the dense ones that a spline leads to
+    coefficients: NDArray[np.floating[Any]]  # (t, w, o, p) of the powers of reflectance, solved, above `level` [K]
+    level: FloatArray  # (t, w) [K]
+    bend: FloatArray  # (t, w) [K-1]; 0 without lobes
+    lobes: Lobes | None  # of the sun; None: the coefficients hold it too
     ground_temperature: FloatArray  # (t,) of the ground plane [K]
     settings: BakeSettings
     lead_in: tuple[LeadIn, ...]  # of the wall types
 
-    def at(self, time_of_day: float) -> FloatArray:
-        """Coefficients (w, o, p) [K] at a time [s], linear between slices."""
+    def at(self, time_of_day: float) -> Moment:
+        """The tables at a time [s]: straight between slices, the sun of the moment where it stands."""
         index, share = self.slice_of(time_of_day)
-        first, second = self.coefficients[index].astype(np.float64), self.coefficients[index + 1].astype(np.float64)
+        coefficients = self._between(self.coefficients, index, share)
+        level, bend = self._between(self.level, index, share), self._between(self.bend, index, share)
+        if self.lobes is None:
+            coefficients[..., 0] += level[:, None]
+            level = np.zeros_like(level)
+        direction, weight = np.zeros((0, 3)), np.zeros((level.size, 0, 2))
+        if self.lobes is not None:
+            direction, weight = self.lobes.at(index, share)
+        return Moment(
+            coefficients=self._spread(coefficients), level=level, bend=bend, direction=direction, weight=weight
+        )
+
+    def _spread(self, coefficients: FloatArray) -> FloatArray:
+        """From the solved orientations to those that are looked up."""
+        if self.settings.interpolation != "spline":
+            return coefficients
+        return np.asarray(spline_matrix(self.settings.orientations, self.orientations.name) @ coefficients)
+
+    @staticmethod
+    def _between(values: NDArray[np.floating[Any]], index: int, share: float) -> FloatArray:
+        first, second = values[index].astype(np.float64), values[index + 1].astype(np.float64)
         return np.asarray(first + share * (second - first))
 
     def slice_of(self, time_of_day: float) -> tuple[int, float]:
@@ -48,6 +85,13 @@ class ShadeTables:
         )
         span = self.time_of_day[index + 1] - self.time_of_day[index]
         return index, float((time_of_day - self.time_of_day[index]) / span)
+
+
+def lookup_orientations(settings: BakeSettings) -> OrientationSet:
+    """The orientations that coefficients are looked up at, by the settings' interpolation."""
+    if settings.interpolation == "spline":
+        return orientation_set(dense_layout(settings.orientations))
+    return replace(orientation_set(settings.orientations), scheme=settings.interpolation)
 
 
 def fit_polynomials(temperature: FloatArray, reflectances: FloatArray, degree: int) -> FloatArray:

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from sensorsim.environment import Environment
-from sensorsim.materials import WallType, part_reflectance
-from sensorsim.tables.orientations import FloatArray
+from sensorsim.materials import WallType
+from sensorsim.tables.mixture import mix_temperatures, mixed_reflectances
+from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
-from sensorsim.thermal.boundary import Outside, inside_from, outside_from
+from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
 from sensorsim.thermal.heat_balance import Exposure
 from sensorsim.thermal.interior import build_interior
 from sensorsim.thermal.lead_in import LeadIn, lead_in_of
@@ -25,9 +26,26 @@ def wall_history(
     record: np.ndarray,
     *,
     lead_in: LeadIn,
+    cell_size: float = 1.0,
 ) -> FloatArray:
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
-    inside = build_interior(
+    inside = inside_of(environment, wall)
+    water = wall.cover is not None and wall.cover.kind == "water"
+    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
+    start = float(np.mean(environment.air_temperature)) if water else None
+    history = march_paths(
+        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
+        step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
+        repeated=lead_in.repeated, cell_size=cell_size,
+    )  # fmt: skip
+    if water and wall.cover is not None:
+        return cool_skin(history.exterior, outside, record, wall.cover)
+    return history.exterior
+
+
+def inside_of(environment: Environment, wall: WallType) -> Inside:
+    """What acts on the interior face of a wall type in this weather."""
+    return build_interior(
         wall.interior,
         environment.air_temperature,
         environment.wind_speed,
@@ -36,17 +54,27 @@ def wall_history(
         room=wall.room,
         heat_gain=wall.heat_gain,
     )
-    water = wall.cover is not None and wall.cover.kind == "water"
-    # Water remembers weeks; it starts from the mean of the air that it has mixed in.
-    start = float(np.mean(environment.air_temperature)) if water else None
-    history = march_paths(
-        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
-        step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
-        repeated=lead_in.repeated,
-    )  # fmt: skip
-    if water and wall.cover is not None:
-        return cool_skin(history.exterior, outside, record, wall.cover)
-    return history.exterior
+
+
+def solve_histories(
+    environment: Environment, exposure: Exposure, wall: WallType, reflectances: FloatArray, record: IntArray, *,
+    settings: BakeSettings,
+) -> FloatArray:  # fmt: skip
+    """Surface temperature (t, o, r) [K] of any wall type at the samples `record` (t,), at solar reflectances (r,).
+
+    Of a mixed one every part is solved at the reflectances that are its own.
+    """
+    if wall.parts:
+        parts = [
+            solve_histories(environment, exposure, part.wall, own, record, settings=settings)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectances), strict=True)
+        ]
+        return mix_temperatures(wall, parts)
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
+    return wall_history(
+        environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size
+    )
 
 
 def surface_histories(
@@ -75,14 +103,11 @@ def _surfaces_of(
 ) -> FloatArray:
     """Temperatures (t, m) [K] of surfaces of one wall type; those of a mixture are joined as `mixture` does."""
     if wall.parts:
-        mean = sum(part.share * part.reflectance for part in wall.parts)
-        total = sum(part.share * part.wall.emissivity for part in wall.parts)
-        fourth = np.zeros(exposure.irradiance.shape)
-        for part in wall.parts:
-            own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectance])
-            temperature = _surfaces_of(environment, exposure, part.wall, own, settings)
-            fourth += part.share * part.wall.emissivity / total * temperature**4
-        return np.asarray(fourth**0.25)
+        parts = [
+            _surfaces_of(environment, exposure, part.wall, own, settings)
+            for part, own in zip(wall.parts, mixed_reflectances(wall, reflectance), strict=True)
+        ]
+        return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
     outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
     count, stride = environment.time.size, round(settings.slice_interval / environment.step)

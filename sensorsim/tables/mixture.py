@@ -1,4 +1,4 @@
-"""Coefficients of a mixed block from those of its components: one temperature that radiates as their mean.
+"""A mixed block from its components: one temperature that radiates as their mean.
 
 The temperature of the block is the one whose fourth power is the mean of the components' fourth powers, weighted by
 area and emissivity: the block emits what its components emit together, at all wavelengths. Near 290 K radiance in
@@ -6,25 +6,36 @@ area and emissivity: the block emits what its components emit together, at all w
 differ by 10 K (standard deviation).
 """
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
 
-from sensorsim.materials import WallType, part_reflectance
+from sensorsim.materials import WallType, part_reflectances
 from sensorsim.tables.orientations import FloatArray
 
 
-def mix_coefficients(wall: WallType, solved: Mapping[WallType, FloatArray], reflectances: FloatArray) -> FloatArray:
-    """Coefficients (t, o, p) [K] of a mixed wall type from those of its parts.
+def mixed_reflectances(wall: WallType, reflectances: FloatArray) -> FloatArray:
+    """Solar reflectances (parts, r) of the components of a mixed wall type where it has `reflectances` (r,)."""
+    own, share = [part.reflectance for part in wall.parts], [part.share for part in wall.parts]
+    return part_reflectances(own, share, reflectances)
 
-    At each of the reflectances (r,) that the fit goes through, every part has its own, see `part_reflectance`.
-    """
-    mean = sum(part.share * part.reflectance for part in wall.parts)
+
+def mix_temperatures(wall: WallType, temperature: Sequence[FloatArray]) -> FloatArray:
+    """Temperature [K] of a mixed wall type from those of its components, each of the same shape."""
+    shares = _emitting_shares(wall)
+    fourth = sum(share * part**4 for share, part in zip(shares, temperature, strict=True))
+    return np.asarray(fourth**0.25)
+
+
+def mix_rises(wall: WallType, temperature: Sequence[FloatArray], rise: Sequence[FloatArray]) -> FloatArray:
+    """Small rise [K] of a mixed wall type's temperature from the rises of its components at their temperatures [K]."""
+    mixed = mix_temperatures(wall, temperature)
+    shares = _emitting_shares(wall)
+    parts = zip(shares, temperature, rise, strict=True)
+    return np.asarray(sum(share * (own / mixed) ** 3 * part for share, own, part in parts))
+
+
+def _emitting_shares(wall: WallType) -> list[float]:
+    """What each component emits over what the block does, at one temperature [-]."""
     total = sum(part.share * part.wall.emissivity for part in wall.parts)
-    powers = solved[wall.parts[0].wall].shape[-1]
-    fourth = np.zeros(())
-    for part in wall.parts:
-        own = np.array([part_reflectance(part.reflectance, mean, float(value)) for value in reflectances])
-        temperature = solved[part.wall] @ np.vander(own, powers, increasing=True).T
-        fourth = fourth + part.share * part.wall.emissivity / total * temperature**4
-    return np.asarray(fourth**0.25 @ np.linalg.pinv(np.vander(reflectances, powers, increasing=True)).T)
+    return [part.share * part.wall.emissivity / total for part in wall.parts]

@@ -3,7 +3,7 @@
 A set is a triangulated sphere. A normal is interpolated from the corners of the spherical triangle that holds it:
 section 3.6.2 of [Report1978] takes the three closest, which jumps where the third changes; the triangle does not,
 because on an edge only the edge's two corners count. Weights are the normal's coordinates along the three corners,
-scaled to sum to one.
+scaled to sum to one. Octahedral sets have the horizon and four meridians among the sides of their triangles.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,13 @@ from sensorsim.errors import InputError
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-LAYOUTS = ("report10", "report26", "icosphere42", "icosphere162", "icosphere642", "icosphere2562")
+LAYOUTS = (
+    "report10", "report26", "icosphere42", "icosphere162", "icosphere642", "icosphere2562",
+    "octahedron18", "octahedron38", "octahedron66", "octahedron102", "octahedron146", "octahedron258", "octahedron578",
+    "octahedron1026",
+)  # fmt: skip
+SCHEMES = ("barycentric", "closest")
+NEAREST = 1e-6  # [-] squared distance at which one of the closest three takes all
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -29,17 +35,22 @@ class OrientationSet:
     normal: FloatArray  # (o, 3) unit
     triangle: IntArray  # (t, 3) corners
     inverse: FloatArray  # (t, 3, 3) rows give a direction's coordinates along the three corners
+    scheme: str = "barycentric"  # one of SCHEMES
 
     def locate(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Corners (m, 3) and weights (m, 3) of the triangles that hold normals (m, 3) of any length.
+        """Orientations (m, 3) around normals (m, 3) of any length and their weights (m, 3), which sum to one.
 
-        Raises InputError for a normal without direction: zero, NaN or infinite.
+        By the scheme `barycentric` these are the corners of the triangle that holds the normal, by `closest` the three
+        closest, as in the report, each by the inverse of its squared distance. Raises InputError for a normal without
+        direction: zero, NaN or infinite.
         """
         undirected = ~(np.all(np.isfinite(normal), axis=1) & np.any(normal != 0.0, axis=1))
         if np.any(undirected):
             row = int(np.argmax(undirected))
             problem = f"the normal of row {row} has no direction"
             raise InputError(self.name, "normal", normal[row].tolist(), problem, "mend the surface")
+        if self.scheme == "closest":
+            return self._closest(_unit(normal))
         corner = np.zeros((normal.shape[0], 3), dtype=np.int64)
         weight = np.zeros((normal.shape[0], 3))
         for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):
@@ -50,13 +61,21 @@ class OrientationSet:
             weight[rows] = inside / inside.sum(axis=1, keepdims=True)
         return corner, weight
 
+    def _closest(self, normal: FloatArray) -> tuple[IntArray, FloatArray]:
+        squared = np.maximum(2.0 - 2.0 * normal @ self.normal.T, 0.0)
+        corner = np.argsort(squared, axis=1, kind="stable")[:, :3]
+        weight = 1.0 / np.maximum(np.take_along_axis(squared, corner, axis=1), NEAREST)
+        return corner, weight / weight.sum(axis=1, keepdims=True)
+
 
 @lru_cache(maxsize=8)
 def orientation_set(name: str) -> OrientationSet:
     """The named set; `report26` are a cube's faces, edges and corners, `report10` eight azimuths, up and down."""
     if name not in LAYOUTS:
         raise InputError("bake settings", "orientations", name, "unknown layout", f"use one of {', '.join(LAYOUTS)}")
-    normal = _icosphere(int(name[9:])) if name.startswith("icosphere") else _report_set(int(name[6:]))
+    count = int(name.lstrip("abcdehiknoprst"))
+    kinds = {"icosphere": _icosphere, "octahedron": _octahedron, "report": _report_set}
+    normal = kinds[name[: -len(str(count))]](count)
     triangle = _outward(ConvexHull(normal).simplices.astype(np.int64), normal)
     inverse = np.linalg.inv(np.swapaxes(normal[triangle], 1, 2))
     return OrientationSet(name=name, normal=normal, triangle=triangle, inverse=inverse)
@@ -85,6 +104,15 @@ def _icosphere(count: int) -> FloatArray:
         edge = np.unique(np.sort(triangle[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
         normal = np.vstack([normal, _unit(normal[edge].sum(axis=1))])
     return normal
+
+
+def _octahedron(count: int) -> FloatArray:
+    """Octahedron with corners up, down and along the axes, its edges split into so many that there are `count`."""
+    parts = round(np.sqrt((count - 2) / 4))
+    steps = np.arange(-parts, parts + 1)
+    grid = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    on_face = grid[np.abs(grid).sum(axis=1) == parts] / parts
+    return _unit(np.sin(on_face * (0.5 * np.pi)))  # the sine spaces them evenly along the axes' circles
 
 
 def _outward(triangle: IntArray, normal: FloatArray) -> IntArray:

@@ -1,23 +1,51 @@
 """Shade of any surface from the tables, in NumPy: the twin that the shader is held to.
 
 Section 3.6.2 of [Report1978]: interpolate the coefficients of the standard orientations around the normal, evaluate
-the polynomial at the surface's reflectance.
+the polynomial at the surface's reflectance. Tables with lobes add the sun's, each as far as the surface saw it.
 """
 
 import numpy as np
 
-from sensorsim.tables.coefficients import ShadeTables
+from sensorsim.tables.coefficients import Moment, ShadeTables
 from sensorsim.tables.orientations import FloatArray, IntArray
+from sensorsim.tables.straighten import bend_back
 
 
 def surface_temperature(
-    tables: ShadeTables, normal: FloatArray, wall_type: IntArray, reflectance: FloatArray, time_of_day: float
+    tables: ShadeTables,
+    normal: FloatArray,
+    wall_type: IntArray,
+    reflectance: FloatArray,
+    time_of_day: float,
+    *,
+    visibility: FloatArray | None = None,
 ) -> FloatArray:
-    """Surface temperature (m,) [K] for unit normals (m, 3), rows of the wall types (m,) and reflectances (m,)."""
-    corner, weight = tables.orientations.locate(normal)
-    around = tables.at(time_of_day)[wall_type[:, None], corner]
-    coefficient = np.einsum("mk,mkp->mp", weight, around)
-    return evaluate_polynomial(coefficient, reflectance)
+    """Surface temperature (m,) [K] for unit normals (m, 3), rows of the wall types (m,) and reflectances (m,).
+
+    `visibility` (m, l) [-] is how much of each lobe of that time the surfaces saw; all of it where not given.
+    """
+    place = tables.orientations.locate(normal)
+    return shade(tables.at(time_of_day), place, normal, wall_type, reflectance, visibility=visibility)
+
+
+def shade(
+    moment: Moment,
+    place: tuple[IntArray, FloatArray],
+    normal: FloatArray,
+    wall_type: IntArray,
+    reflectance: FloatArray,
+    *,
+    visibility: FloatArray | None = None,
+) -> FloatArray:
+    """The same (m,) [K] at a moment for normals that have their `place`, (m, 3) orientations and weights, already."""
+    corner, weight = place
+    coefficient = np.einsum("mk,mkp->mp", weight, moment.coefficients[wall_type[:, None], corner])
+    facing = np.maximum(normal @ moment.direction.T, 0.0)
+    seen = facing if visibility is None else visibility * facing
+    rise = moment.weight[wall_type]
+    sun = np.sum(seen * (rise[..., 0] + rise[..., 1] * reflectance[:, None]), axis=1)
+    value = evaluate_polynomial(coefficient, reflectance) + sun
+    return bend_back(value, moment.level[wall_type], moment.bend[wall_type])
 
 
 def evaluate_polynomial(coefficient: FloatArray, argument: FloatArray) -> FloatArray:

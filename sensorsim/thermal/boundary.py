@@ -101,3 +101,10 @@ class Columns(NamedTuple):
     def rise(self) -> FloatArray:
         """What the faces' temperatures rose (2, m) in the last step [K], by which the next one's are guessed."""
         return self.carried[6:8]
+
+
+class Trace(NamedTuple):
+    """Samples of which the march keeps both faces' temperatures as it passes them."""
+
+    row: NDArray[np.int64]  # (t,) of each sample in `faces`, -1 for those that are not kept
+    faces: FloatArray  # (r, 2, m) exterior, interior [C]

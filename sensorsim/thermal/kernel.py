@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.thermal.balance import Room, balance
-from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside
+from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Trace
 from sensorsim.thermal.damping import CARRY, GAMMA, bound, calls_for_damping, go_back, join
 from sensorsim.thermal.lanes import (
     ABSORBED,
@@ -51,29 +51,33 @@ from sensorsim.thermal.lanes import (
     Index,
     give,
     inner,
+    note,
     take,
 )
 
+NO_TRACE = Trace(np.zeros(0, dtype=np.int64), np.zeros((0, 2, 0)))
 CHUNK = 64  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
 AIR, VAPOUR, ROOM_AIR, ROOM_RADIANT, ROOM_FILM = range(5)  # of what all columns share
 
 
 def advance(
-    columns: Columns, cells: Cells, damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float
-) -> int:
+    columns: Columns, cells: Cells, damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float,
+    trace: Trace | None = None,
+) -> int:  # fmt: skip
     """Make steps `first` to `last` - 1 [of `step` s]; returns how many face balances did not converge.
 
-    `cells` is the wall factored for gamma `step`, `damped` for `step`.
+    `cells` is the wall factored for gamma `step`, `damped` for `step`; what `trace` asks for is written into it.
     """
+    trace = NO_TRACE if trace is None else trace
     w, c = np.zeros(int(ALL)), np.zeros((cells.factors.shape[0] + 2) * int(CELL))  # beyond either end an idle cell
     lane = np.zeros(LANES, dtype=Index)  # made out here, so that the compiled code does not know how many
-    return int(_advance(w, c, lane, columns, cells, damped, outside, inside, first, last, step))
+    return int(_advance(w, c, lane, columns, cells, damped, outside, inside, first, last, step, trace))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(
     w: FloatArray, c: FloatArray, lane: NDArray[Index], columns: Columns, cells: Cells, damped: Cells,
-    outside: Outside, inside: Inside, first: int, last: int, step: float,
+    outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, a chunk at a time."""
     lanes, shared, failures = Index(lane.size), np.zeros((2, 5)), 0
@@ -86,6 +90,8 @@ def _advance(
                 sample(lanes, w, lane, outside, k + 1)
                 share(shared, outside, inside, k)
                 failures += _step(lanes, w, c, shared, cells, damped, outside, inside, step)
+                if trace.row.size > 0 and trace.row[k + 1] >= 0:
+                    note(lanes, w, trace.faces[trace.row[k + 1]], begin)
             give(lanes, w, c, columns, begin)
     return failures
 

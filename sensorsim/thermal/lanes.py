@@ -75,3 +75,12 @@ def give(lanes: Index, w: FloatArray, c: FloatArray, columns: Columns, begin: in
         at, cells = Index(i + 1) * CELL + STAGE, columns.cells[i]
         for j in range(count):
             cells[start + j] = c[at + j]
+
+
+@inner
+def note(lanes: Index, w: FloatArray, faces: FloatArray, begin: int) -> None:
+    """Temperatures of both faces (2, m) [C] of one sample, as they are now."""
+    count, start = min(lanes, Index(faces.shape[1] - begin)), Index(begin)
+    exterior, interior = faces[0], faces[1]
+    for j in range(count):
+        exterior[start + j], interior[start + j] = w[EXTERIOR + j], w[INTERIOR + j]

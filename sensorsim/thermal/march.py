@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import NumericsError
-from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, per_exterior_area
+from sensorsim.thermal.boundary import Cells, Columns, Inside, Outside, Trace, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
@@ -29,6 +29,18 @@ class History:
     melted: FloatArray  # (o, a) heat that melting has taken up, less freezing; `heat` sums to `stored` and this [J m-2]
     drained: FloatArray  # (o, a) part of `melted` that came to snow which had all melted, and ran off [J m-2]
     grid: WallGrid
+
+
+class _Run(NamedTuple):
+    """All that one wall's march goes by."""
+
+    columns: Columns
+    taken: FloatArray
+    walls: tuple[Cells, Cells]
+    thaw: Thaw
+    outside: Outside
+    inside: Inside
+    step: float
 
 
 def march(
@@ -60,35 +72,27 @@ def march(
     outside, inside = _plain_outside(outside), _plain_inside(inside, grid)
     columns = _start(grid, outside, inside, absorptances, start)
     shape = (outside.irradiance.shape[1], absorptances.size)
-    exterior, interior = np.zeros((record.size, *shape)), np.zeros((record.size, *shape))
-    nodes = np.zeros((record.size, grid.capacity.size, *shape)) if keep_nodes else None
     walls = factor(grid, GAMMA * step, step), factor(grid, step, step)
     thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
-    before, taken, sample = grid.capacity @ columns.cells, _taken(columns, thaw), 0
-    held = taken.sum(axis=0)
-    for row, wanted in enumerate(map(int, record)):
-        _advance(wanted, sample, columns, taken, walls, thaw, outside, inside, step)
-        sample = wanted
-        exterior[row] = columns.faces[0].reshape(shape) + ZERO_CELSIUS
-        interior[row] = _innermost(columns, grid).reshape(shape) + ZERO_CELSIUS
-        if nodes is not None:
-            nodes[row] = columns.cells.reshape(-1, *shape) + ZERO_CELSIUS
+    before, taken = grid.capacity @ columns.cells, _taken(columns, thaw)
+    held, run = taken.sum(axis=0), _Run(columns, taken, walls, thaw, outside, inside, step)
+    nodes = np.zeros((record.size, *columns.cells.shape)) if keep_nodes else None
+    if nodes is None and grid.interior_area > 0.0 and not np.any(latent) and np.all(np.diff(record) > 0):
+        faces = _march_through(run, record)
+    else:
+        faces = _march_by_samples(run, record, grid, nodes)
+    exterior, interior = faces.swapaxes(0, 1).reshape(2, -1, *shape) + ZERO_CELSIUS
     return History(
         sample=record,
         exterior=exterior,
         interior=interior,
-        nodes=nodes,
+        nodes=None if nodes is None else nodes.reshape(record.size, -1, *shape) + ZERO_CELSIUS,
         heat=columns.heat.reshape(2, *shape),
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
         melted=(taken.sum(axis=0) - held).reshape(shape),
         drained=taken[-1].reshape(shape),
         grid=grid,
     )
-
-
-def _innermost(columns: Columns, grid: WallGrid) -> FloatArray:
-    """Temperature (m,) [C] of the interior face, in a solid wall of the cell around its centre."""
-    return np.asarray(columns.faces[1] if grid.interior_area > 0.0 else columns.cells[-1])
 
 
 def _plain_outside(outside: Outside) -> Outside:
@@ -114,16 +118,37 @@ def _taken(columns: Columns, thaw: Thaw) -> FloatArray:
     return taken
 
 
-def _advance(
-    last: int, first: int, columns: Columns, taken: FloatArray, walls: tuple[Cells, Cells], thaw: Thaw,
-    outside: Outside, inside: Inside, step: float,
-) -> None:  # fmt: skip
-    """Columns from sample `first` to `last`, or NumericsError."""
-    if np.any(thaw.latent):
-        failures = advance_melting(columns, taken, thaw, outside, inside, first, last, step)
-    else:
-        failures = advance(columns, *walls, outside, inside, first, last, step)
-    if failures or not np.all(np.isfinite(columns.faces)):
+def _march_through(run: _Run, record: np.ndarray) -> FloatArray:
+    """Faces (r, 2, m) [C] at samples that increase, in one go."""
+    columns, last = run.columns, int(record[-1])
+    row = np.full(run.outside.air.size, -1, dtype=np.int64)
+    row[record] = np.arange(record.size)
+    faces = np.zeros((record.size, 2, columns.orientation.size))
+    faces[0] = columns.faces  # stays where the start is asked for
+    failures = advance(columns, *run.walls, run.outside, run.inside, 0, last, run.step, Trace(row, faces))
+    _require_settled(failures, faces, 0, last)
+    return faces
+
+
+def _march_by_samples(run: _Run, record: np.ndarray, grid: WallGrid, nodes: FloatArray | None) -> FloatArray:
+    """Faces (r, 2, m) [C], of a solid wall its innermost cell, and nodes (r, n, m) [C] where asked for."""
+    columns, sample = run.columns, 0
+    faces = np.zeros((record.size, 2, columns.orientation.size))
+    for row, wanted in enumerate(map(int, record)):
+        if np.any(run.thaw.latent):
+            failures = advance_melting(columns, run.taken, run.thaw, run.outside, run.inside, sample, wanted, run.step)
+        else:
+            failures = advance(columns, *run.walls, run.outside, run.inside, sample, wanted, run.step)
+        _require_settled(failures, columns.faces, sample, wanted)
+        sample = wanted
+        faces[row] = columns.faces[0], columns.faces[1] if grid.interior_area > 0.0 else columns.cells[-1]
+        if nodes is not None:
+            nodes[row] = columns.cells
+    return faces
+
+
+def _require_settled(failures: int, faces: FloatArray, first: int, last: int) -> None:
+    if failures or not np.all(np.isfinite(faces)):
         raise NumericsError(f"heat balance of a wall did not converge between samples {first} and {last}")
 
 

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from sensorsim.thermal.boundary import Inside, Outside
-from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
+from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.march import History, march
 from sensorsim.thermal.periodic_start import settled_cells
 
@@ -49,11 +49,21 @@ class GridPath:
     grid: WallGrid
 
 
-def wall_paths(wall: WallLike, step: float) -> tuple[GridPath, ...]:
-    """Paths of a wall for steps of `step` [s], the widest first; one path where it is the same all over."""
+def wall_paths(wall: WallLike, step: float, *, cell_size: float = 1.0) -> tuple[GridPath, ...]:
+    """Paths of a wall for steps of `step` [s], the widest first; one path where it is the same all over.
+
+    `cell_size` is that of its cells over the usual [-].
+    """
     shares = [(path.fraction, path.layers) for path in wall.paths] or [(1.0, wall.layers)]
+
+    def grid(layers: Sequence[LayerLike]) -> WallGrid:
+        return build_grid(
+            layers, step, shape=wall.shape, radius=wall.radius, step_fraction=cell_size * STEP_FRACTION,
+            day_fraction=cell_size * DAY_FRACTION, growth=cell_size * GROWTH,
+        )  # fmt: skip
+
     return tuple(
-        GridPath(fraction=fraction, layers=layers, grid=build_grid(layers, step, shape=wall.shape, radius=wall.radius))
+        GridPath(fraction=fraction, layers=layers, grid=grid(layers))
         for fraction, layers in sorted(shares, key=lambda share: -share[0])
     )
 
@@ -79,6 +89,7 @@ def march_paths(
     keep_nodes: bool = False,
     start: float | None = None,
     melting_depth: float = 0.0,
+    cell_size: float = 1.0,
     repeated: bool = False,
 ) -> History:
     """March all paths of a construction or wall type, of any shape, as `march` does layers, and join them by area.
@@ -87,7 +98,7 @@ def march_paths(
     is repeated; `melting_depth` [m] is that of `march`.
     Grid and node temperatures are those of the widest path.
     """
-    paths = wall_paths(wall, step)
+    paths = wall_paths(wall, step, cell_size=cell_size)
     histories = []
     for place, path in enumerate(paths):
         cells = None if start is None else np.full(path.grid.capacity.size, start)

@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 
 from sensorsim.errors import InputError
-from sensorsim.trainer.vehicle_shape import PARTS, VehicleShape
+from sensorsim.trainer.vehicle_shape import PARTS, VehicleShape, face_area
 
 SUFFIXES = (".glb", ".gltf", ".obj")
 MOST_TRIANGLES = 20_000  # turned on the processor, frame by frame
@@ -33,9 +33,10 @@ def read_vehicle(path: Path) -> VehicleShape:
         mesh = scene.geometry[name]
         if not hasattr(mesh, "faces") or len(mesh.faces) == 0:
             continue
-        corners = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-        triangles.append(corners[mesh.faces] @ _BODY_FROM_FILE.T)
-        parts.append(np.full(len(mesh.faces), PARTS.index(part_of(f"{node} {name}"))))
+        corners = (mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3])[mesh.faces] @ _BODY_FROM_FILE.T
+        corners = corners[face_area(corners) > 0.0]
+        triangles.append(corners)
+        parts.append(np.full(len(corners), PARTS.index(part_of(f"{node} {name}"))))
     count = sum(map(len, parts))
     if not 1 <= count <= MOST_TRIANGLES:
         raise InputError(path, "triangles", count, f"not 1 to {MOST_TRIANGLES}", "simplify the model")

@@ -32,9 +32,17 @@ class VehicleShape:
             raise InputError(self.name, "triangles", self.triangles.shape, "not (t, 3, 3)", "give triangles")
         if not np.isfinite(self.triangles).all():
             raise InputError(self.name, "triangles", "a corner", "not finite", "give metres")
+        if face_area(self.triangles).min() <= 0.0:
+            raise InputError(self.name, "triangles", "one of them", "without an area", "take it out")
         known = (self.part >= 0) & (self.part < len(PARTS))
         if self.part.shape != self.triangles.shape[:1] or not known.all():
             raise InputError(self.name, "part", self.part.shape, "not a row of PARTS for each triangle", "name parts")
+
+
+def face_area(triangles: FloatArray) -> FloatArray:
+    """Area (t,) [m2]."""
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return np.asarray(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1))
 
 
 def box(middle: Sequence[float], size: Sequence[float]) -> FloatArray:
@@ -67,4 +75,4 @@ def shape(name: str, pieces: Sequence[tuple[str, FloatArray]]) -> VehicleShape:
 
 def _down(triangles: FloatArray) -> FloatArray:
     """Forward, right, up as forward, right, down; the order of corners turns with the handedness."""
-    return np.asarray((triangles * [1.0, 1.0, -1.0])[:, ::1])
+    return np.asarray((triangles * [1.0, 1.0, -1.0])[:, ::-1])

@@ -1,7 +1,6 @@
 #version 330 core
 // Provides: band radiance at the sensor [W m-2 sr-1], surface temperature [K], range [m] and surface id of a surface.
 // EMISSIVE 1: thermal bands, 0: reflective bands.
-#include "radiance/shade.glsl"
 #include "radiance/path.glsl"
 #include "radiance/emitted.glsl"
 #include "radiance/reflected.glsl"
@@ -14,6 +13,7 @@ flat in vec4 last_record;
 flat in vec4 gloss_record;
 #endif
 flat in int surface_id;
+flat in float temperature;
 
 layout(location = 0) out vec4 quantities;  // band radiance, surface temperature, range, spare
 layout(location = 1) out int id;
@@ -21,9 +21,6 @@ layout(location = 1) out int id;
 void main() {
     Direction normal = record[0].xyz;
     Metre range = length(from_camera);
-    Kelvin temperature =
-        surface_temperature(int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w)
-        + last_record.z;
 #if EMISSIVE
     Radiance source = emitted_radiance(temperature, record[1].w, normal, from_camera / range, gloss_record.xy);
 #else

@@ -1,8 +1,10 @@
 #version 330 core
-// Provides: the surface's record to its fragments, unchanged across the surface, and the position for the range.
+// Provides: the surface's record and temperature [K] to its fragments, unchanged across the surface, and the position
+// for the range. LOBES 1: tables with lobes of the sun, 0: without.
 #include "generated/view_frame_block.glsl"
 #include "radiance/path.glsl"
 #include "scene/surface_record.glsl"
+#include "radiance/shade.glsl"
 
 in vec3 position;  // [m] east, north, up of the scene's origin
 in int surface;
@@ -15,6 +17,7 @@ flat out vec4 last_record;
 flat out vec4 gloss_record;
 #endif
 flat out int surface_id;
+flat out float temperature;  // [K]
 
 void main() {
     for (int texel = 0; texel < 4; ++texel) record[texel] = surface_texel(surface, texel);
@@ -23,6 +26,8 @@ void main() {
     gloss_record = surface_texel(surface, 5);
 #endif
     surface_id = surface;
+    temperature = surface_temperature(
+        int(record[0].w), ivec3(record[1].xyz), record[2].xyz, record[2].w, record[0].xyz) + last_record.z;
     from_camera = position - view_frame.camera_position;
     extinction = mean_extinction(from_camera.z);
     gl_Position = view_frame.clip_from_camera * vec4(from_camera, 1.0);

@@ -1,0 +1,41 @@
+"""What light does to a wall type from the moment that it falls on it: the march of the tables, linearised."""
+
+import numpy as np
+
+from sensorsim.environment import Environment
+from sensorsim.materials import WallType
+from sensorsim.tables.history import inside_of
+from sensorsim.tables.orientations import FloatArray, IntArray
+from sensorsim.tables.settings import BakeSettings
+from sensorsim.thermal.heat_balance import Exposure
+from sensorsim.thermal.linear_response import exterior_slope, interior_slope, linear_response
+from sensorsim.thermal.natural import AERODYNAMIC, surface_boundary
+from sensorsim.thermal.paths import wall_paths
+
+
+def sun_response(
+    environment: Environment, exposure: Exposure, wall: WallType, temperature: FloatArray, record: IntArray, *,
+    light: FloatArray, first: int, settings: BakeSettings,
+) -> FloatArray:  # fmt: skip
+    """Rise (t, m) [K] of a plain wall type, black to the sun, by light (s, m) [W m-2] from sample `first` on.
+
+    Linear about its course (t, o) [K] at the samples `record` (t,), meant over all orientations; before the first of
+    them as at the same clock time later.
+    """
+    cover = wall.cover
+    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
+    at_record = outside._replace(
+        film=outside.film[record], air=outside.air[record],
+        latent=outside.latent[record] if outside.latent.shape[0] > 1 else outside.latent,
+    )  # fmt: skip
+    course = exterior_slope(at_record, temperature).mean(axis=1)
+    clock = (np.arange(first, record[-1] + 1) - record[0]) % max(int(record[-1] - record[0]), 1)
+    slope = np.interp(clock, record - record[0], course)
+    share = cover.interception if cover is not None and cover.kind in AERODYNAMIC else 1.0
+    inside, rise = inside_of(environment, wall), np.zeros((record.size, light.shape[1]))
+    for path in wall_paths(wall, environment.step, cell_size=settings.cell_size):
+        inner = interior_slope(inside, path.grid.interior_area)
+        rise += path.fraction * linear_response(
+            path.grid, share * light, slope, inner, step=environment.step, record=record - first
+        )
+    return rise

@@ -1,0 +1,165 @@
+"""Sun lobes: the response they are made from, what they add up to, and what they leave to the orientations."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_world import SETTINGS, environment, random_normals, tables, wall_types
+
+from sensorsim.materials import load_catalogue
+from sensorsim.study.fit_error import Surfaces, fit_error, full_solve, summarise
+from sensorsim.tables import bake_tables, orientation_set, surface_temperature
+from sensorsim.tables.lobes import lobe_sources, lobe_weights
+from sensorsim.tables.spline import spline_matrix
+from sensorsim.tables.straighten import bend_back, fit_bend, straighten
+from sensorsim.thermal import build_grid
+from sensorsim.thermal.heat_balance import directional_irradiance
+from sensorsim.thermal.linear_response import linear_response
+
+LAYERS = wall_types()[0].layers
+
+
+def _record() -> np.ndarray:
+    return environment().image_window.start + 6 * np.arange(49)
+
+
+def test_steady_heat_warms_a_face_by_the_films_and_the_wall_in_parallel() -> None:
+    """Closed form: q / (h_out + 1 / (R + 1 / h_in)); brick forgets its start in ten days."""
+    grid, count = build_grid(LAYERS, 3600.0), 24 * 30
+    heat, slope = np.full((count, 1), 100.0), np.full(count, 17.0)
+    rise = linear_response(grid, heat, slope, 8.0, step=3600.0, record=np.array([count - 1]))
+    resistance = float(np.sum(1.0 / grid.conductance))
+    assert rise[0, 0] == pytest.approx(100.0 / (17.0 + 1.0 / (resistance + 1.0 / 8.0)), rel=1e-6)
+
+
+def test_response_adds_up_and_knows_nothing_of_later_heat() -> None:
+    grid, rng = build_grid(LAYERS, 300.0), np.random.default_rng(3)
+    heat, slope = rng.uniform(0.0, 500.0, (400, 2)), rng.uniform(10.0, 25.0, 400)
+    record = np.array([0, 100, 399])
+    apart = linear_response(grid, heat, slope, 5.0, step=300.0, record=record)
+    together = linear_response(grid, heat @ np.array([[2.0], [-1.0]]), slope, 5.0, step=300.0, record=record)
+    np.testing.assert_allclose(together[:, 0], 2.0 * apart[:, 0] - apart[:, 1], rtol=1e-9, atol=1e-12)
+    later = heat.copy()
+    later[101:] = 0.0
+    np.testing.assert_array_equal(linear_response(grid, later, slope, 5.0, step=300.0, record=record)[:2], apart[:2])
+
+
+def test_sources_of_the_lobes_are_all_the_light_of_the_sun_and_no_more() -> None:
+    sources = lobe_sources(environment(), _record(), interval=1800.0, sky="perez")
+    light = directional_irradiance(environment())[sources.first :]
+    begun = int(np.count_nonzero(sources.node < 48))
+    np.testing.assert_allclose(sources.light[:, :begun].sum(axis=1) + sources.light[:, 2 * begun :].sum(axis=1), light)
+
+
+def test_weights_hold_the_whole_response_whatever_lobes_they_are_handed_to() -> None:
+    """Light through which a surface faces all lobes alike warms it by the response to all of it: nothing is lost."""
+    sources = lobe_sources(environment(), _record(), interval=1800.0, sky="perez")
+    begun = int(np.count_nonzero(sources.node < 48))
+    response = np.abs(np.random.default_rng(0).normal(1.0, 0.3, (49, sources.light.shape[1])))
+    position = sources.clock / 1800.0
+    gone = np.clip(position[:, None] - sources.node[sources.node < 48], 0.0, 1.0)
+    response[:, :begun] *= gone
+    response[:, begun : 2 * begun] = 0.4 * gone * response[:, :begun]
+    whole = response[:, :begun].sum(axis=1) + response[:, 2 * begun :].sum(axis=1)
+    np.testing.assert_allclose(lobe_weights(sources, response).sum(axis=1), whole, atol=0.05)
+
+
+def test_no_temperature_jumps_in_time_with_lobes_that_come_and_go() -> None:
+    baked, normal = tables(), random_normals(60)
+    wall, reflectance = np.zeros(60, dtype=np.int64), np.full(60, 0.2)
+    for time in np.arange(1800.0, 86400.0, 3600.0):
+        before, after = (surface_temperature(baked, normal, wall, reflectance, time + late) for late in (-1e-3, 1e-3))
+        assert np.abs(after - before).max() < 1e-4
+
+
+def test_lobe_that_a_surface_did_not_see_leaves_it_colder_and_others_alone() -> None:
+    """A black wall shaded in the morning: colder at noon, never below what it is without any sun."""
+    baked, normal = tables(), random_normals(200)
+    wall, reflectance = np.zeros(200, dtype=np.int64), np.full(200, 0.1)
+    count = baked.at(43200.0).direction.shape[0]
+    lit = surface_temperature(baked, normal, wall, reflectance, 43200.0)
+    all_seen = surface_temperature(baked, normal, wall, reflectance, 43200.0, visibility=np.ones((200, count)))
+    np.testing.assert_array_equal(lit, all_seen)
+    unlit = surface_temperature(baked, normal, wall, reflectance, 43200.0, visibility=np.zeros((200, count)))
+    for lobe in range(count):
+        seen = np.ones((200, count))
+        seen[:, lobe] = 0.0
+        shaded = surface_temperature(baked, normal, wall, reflectance, 43200.0, visibility=seen)
+        facing = normal @ baked.at(43200.0).direction[lobe] > 0.0
+        np.testing.assert_array_equal(shaded[~facing], lit[~facing])
+        assert np.all(shaded <= lit + 1e-9)
+        assert np.all(shaded >= unlit - 1e-9)
+
+
+def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
+    """Winter daylight, random normals against their own full solve: 99 of 100 within 0.15 K, a fifth of the plain."""
+    hours = np.array([7.0, 8.0, 10.0, 12.5, 15.0, 16.5, 20.0]) * 3600.0
+    surfaces = Surfaces(
+        wall_types=wall_types(), normal=random_normals(80), reflectance=np.array([0.05, 0.5, 0.95]), time_of_day=hours
+    )
+    ground = wall_types()[3]
+    solved = full_solve(environment(), surfaces, ground=ground, settings=SETTINGS)
+    with_lobes = summarise(surfaces, fit_error(tables(), surfaces, solved))
+    plain = bake_tables(environment(), wall_types(), ground=ground, settings=replace(SETTINGS, lobes=0.0))
+    without = summarise(surfaces, fit_error(plain, surfaces, solved))
+    assert with_lobes.p99 < 0.15
+    assert with_lobes.max < 0.4
+    assert with_lobes.p99 < without.p99 / 5.0
+
+
+def test_shade_at_a_standard_orientation_and_solved_reflectance_is_the_full_solve() -> None:
+    """Nothing counted twice or lost: orientations are kept by the spline, reflectances by the quadratic."""
+    normal = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+    mixed = load_catalogue().wall_type(30, "heated")
+    surfaces = Surfaces(
+        wall_types=(*wall_types(), mixed), normal=normal, reflectance=np.array(SETTINGS.reflectances),
+        time_of_day=np.array([0.0, 36000.0, 43200.0, 61200.0]),
+    )  # fmt: skip
+    solved = full_solve(environment(), surfaces, ground=wall_types()[3], settings=SETTINGS)
+    baked = bake_tables(environment(), surfaces.wall_types, ground=wall_types()[3], settings=SETTINGS)
+    errors = fit_error(baked, surfaces, solved)
+    assert max(np.abs(error).max() for error in errors[:4]) < 2e-4
+    assert np.abs(errors[4]).max() < 0.05  # its parts are solved at reflectances of their own
+
+
+def test_spline_keeps_what_it_knows_and_reproduces_its_own_forms() -> None:
+    """Quadratics of the normal, the cone at the zenith and the edge at the horizon come through exactly."""
+    matrix = spline_matrix("octahedron66", "octahedron578")
+    known, dense = tables().settings.orientations, tables().orientations
+    assert known == "octahedron66"
+    solved = orientation_set(known).normal
+    for form in (lambda n: n[:, 0] * n[:, 2], lambda n: np.hypot(n[:, 0], n[:, 1]), lambda n: np.abs(n[:, 2])):
+        np.testing.assert_allclose(matrix @ form(solved), form(dense.normal), atol=1e-9)
+    values = np.random.default_rng(1).normal(size=66)
+    same = np.argmin(np.linalg.norm(dense.normal[None] - solved[:, None], axis=2), axis=1)
+    np.testing.assert_allclose((matrix @ values)[same], values, atol=1e-9)
+
+
+def test_bend_straightens_a_face_that_radiates_and_comes_back() -> None:
+    """Closed form: absorbed heat balanced by h (T - 290) + sigma T^4; curvature in reflectance falls tenfold."""
+    reflectance, cosine = np.array([0.07, 0.5, 0.93]), np.linspace(0.0, 1.0, 30)
+    heat = 900.0 * cosine[:, None] * (1.0 - reflectance)
+    kelvin = np.full(heat.shape, 300.0)
+    for _ in range(60):
+        lack = heat + 5.67e-8 * 285.0**4 - 6.0 * (kelvin - 290.0) - 5.67e-8 * kelvin**4
+        kelvin += lack / (6.0 + 4.0 * 5.67e-8 * kelvin**3)
+    level, bend = fit_bend(kelvin[None], reflectance)
+    straight = straighten(kelvin[None], level[:, None, None], bend[:, None, None])
+    np.testing.assert_allclose(bend_back(straight, level[:, None, None], bend[:, None, None])[0], kelvin, rtol=1e-12)
+    curved = [
+        np.abs(values[..., 0] - 2.0 * values[..., 1] + values[..., 2]).max() for values in (kelvin[None], straight)
+    ]
+    assert curved[1] < 0.1 * curved[0]
+
+
+def test_night_without_sun_in_the_tables_has_no_bend_to_speak_of() -> None:
+    level, bend = fit_bend(np.full((1, 10, 3), 270.0), np.array([0.1, 0.5, 0.9]))
+    np.testing.assert_array_equal(level, 270.0)
+    np.testing.assert_array_equal(bend, 0.0)
+
+
+def test_there_are_as_many_lobes_as_matter_and_no_more() -> None:
+    lobes = tables().lobes
+    assert lobes is not None
+    assert 1 <= lobes.at(20, 0.5)[0].shape[0] <= lobes.most <= lobes.direction.shape[0] + 1
+    assert lobes.at(0, 0.0)[0].shape[0] < lobes.most, "at midnight only yesterday's sun is left"
