@@ -29,6 +29,7 @@ TEXTURE_UNITS = {
     "block_picture": 14,
     "baseline_picture": 15,
     "halo_picture": 14,
+    "settled_table": 13,
     "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
     "sky_indicatrix_table": 17,
     "rise_table": 18,
@@ -84,17 +85,19 @@ def surface_pass(
     )
 
 
-def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool) -> Pass:
+def background_pass(
+    ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, marked: bool = False, horizon: int = 0
+) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
     glow = () if emissive else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
-        "common/screen.vert",
+        "scene/background.vert",
         "scene/background.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("sky_radiance_table", *glow),
         generated=generated,
-        defines={"EMISSIVE": int(emissive)},
+        defines={"EMISSIVE": int(emissive), "MARKED": int(marked), "HORIZON": horizon},
     )
 
 

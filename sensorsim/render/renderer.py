@@ -1,6 +1,6 @@
 """One frame as an ordered list of passes: surfaces, background, read-back, window, display."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -14,28 +14,28 @@ from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
-from sensorsim.render.blocks import AIR, DISPLAY, ILLUMINATION, VIEW_FRAME
+from sensorsim.render.blocks import AIR, DISPLAY, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
-from sensorsim.render.illumination import Illumination, dark, illuminate
-from sensorsim.render.mirror import mirror_glsl, rise_table
+from sensorsim.render.illumination import Illumination, illuminate
+from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
+from sensorsim.render.quick_frame import QuickFrame
 from sensorsim.render.sensor_chain import SensorChain
-from sensorsim.render.surface_table import surface_table
 from sensorsim.render.world import World
 from sensorsim.sensor import (
     TONE_ENTRIES,
     DisplaySettings,
-    Sensitivity,
+    RowChain,
     Sensor,
+    exposure_for,
     fix_window,
+    sampled_surfaces,
     tone_curve,
     window_limits,
 )
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
 
-_BLOCKS = (VIEW_FRAME, ILLUMINATION, AIR, DISPLAY)
-FILLED = 0.8  # of the detector's range, that an automatic iris aims at
+_BLOCKS = (VIEW_FRAME, AIR, DISPLAY)
 QUANTITIES = ("radiance", "surface_temperature", "range")  # components of the float plane, in order
 
 
@@ -68,6 +68,9 @@ class Renderer:
         self.size = sensor.size if size is None else size
         self.samples, self.blur_energy = samples, blur_energy
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
+        self._quick: QuickFrame | None = None
+        self._rows: RowChain | None = None
+        self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
         self.ctx = create_context(backend)
         try:
             self._build()
@@ -87,29 +90,32 @@ class Renderer:
 
     def release(self) -> None:
         """Give back the OpenGL context with everything in it."""
+        if self._rows is not None:
+            self._rows.release()
         self.ctx.release()
 
     def render(
         self, camera: Camera, time_of_day: float, *, display: DisplaySettings | None = None,
-        illumination: Illumination | None = None, frame: int = 0,
+        illumination: Illumination | None = None, frame: int = 0, planes: Collection[str] | None = None,
     ) -> Picture:  # fmt: skip
         """The picture from `camera` at a time of the image day [s].
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
         bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
-        number. `illumination` replaces the surroundings of the moment.
+        number; all, or those asked for. Display alone takes a quicker road: see `quick_frame`; its codes may differ by
+        one. `illumination` replaces the surroundings of the moment.
         """
+        wanted = self._wanted(planes)
         if illumination is None:
-            illumination = self.illuminate(time_of_day, float(camera.position[2]))
+            illumination = self._surroundings(time_of_day, float(camera.position[2]))
         with self.ctx:  # another renderer's context may have become the current one
-            self._set_moment(time_of_day, illumination)
-            self._draw(camera, illumination)
-            planes = self._read()
-            self._detect(camera, planes, frame)
-            settings = fix_window(self.sensor.display if display is None else display, exposed(planes))
-            planes["display"] = self._display(settings, exposed(planes))
+            self._moment.set(time_of_day, illumination)
+            self._set_view(camera, illumination)
+            chosen = self.sensor.display if display is None else display
+            draw = self._show_quickly if wanted == {"display"} else self._show_all
+            found, settings = draw(camera, chosen, frame, wanted)
         return Picture(
-            planes=planes, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
+            planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination
         )
 
     def illuminate(
@@ -128,30 +134,28 @@ class Renderer:
             atmosphere=self.atmosphere, camera_height=camera_height,
         )  # fmt: skip
 
+    def _wanted(self, planes: Collection[str] | None) -> set[str]:
+        there = {*QUANTITIES, "surface_id", "feature", "display"}
+        there |= {"signal"} if self.sensor.detector is not None else set()
+        there |= {"apparent_temperature"} if self.band_table is not None else set()
+        unknown = set() if planes is None else set(planes) - there
+        if unknown or (planes is not None and not planes):
+            raise InputError("renderer", "planes", sorted(unknown), "not there", f"use {', '.join(sorted(there))}")
+        return there if planes is None else set(planes)
+
+    def _surroundings(self, time_of_day: float, height: float) -> Illumination:
+        """As `illuminate`, or what was found last where only a camera moved that the air does not mind."""
+        if self._own is None or self._own[0] != time_of_day or self.atmosphere == "modtran":
+            self._own = time_of_day, self.illuminate(time_of_day, height)
+        return self._own[1]
+
     def _build(self) -> None:
-        ctx, world = self.ctx, self.world
-        mesh, records = world.scene.mesh, self._records(0.0)
-        band = self._band_lookup()
-        skies = (dark().sky_table(), *dark().glow_tables())
-        self._tables = {
-            "surface_table": float_table(ctx, "surface_table", records),
-            "band_radiance_table": float_table(ctx, "band_radiance_table", band.texels),
-            **{f"{table.name}_table": float_table(ctx, table.name, table.texels) for table in skies},
-            "rise_table": float_table(ctx, "rise_table", rise_table()),
-            "mirror_table": float_table(ctx, "mirror_table", dark().mirror_table()),
-        }
-        self._tables_at = 0.0
-        for name, texels in shade_texels(world.tables, self._tables_at).items():
-            self._tables[name] = float_table(ctx, name, texels)
-        generated = {
-            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
-            "band_radiance": band.glsl(),
-            **{table.name: table.glsl() for table in skies},
-            "mirror_size": mirror_glsl(),
-        }
+        ctx, mesh = self.ctx, self.world.scene.mesh
+        self._box = mesh.position.min(axis=0), mesh.position.max(axis=0)
+        self._moment = MomentTables(ctx, self.world, self.band_table)
         vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
-        emissive, lobes = self.sensor.mode == "emissive", world.tables.lobes is not None
-        buffers = mesh_buffers(ctx, vertices, mesh.triangle)
+        emissive, lobes = self.band_table is not None, self.world.tables.lobes is not None
+        buffers, generated = mesh_buffers(ctx, vertices, mesh.triangle), self._moment.generated
         self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
         self._background = background_pass(ctx, generated, emissive=emissive)
         self._build_targets()
@@ -161,7 +165,7 @@ class Renderer:
         curve = LookupTable(
             name="tone", quantity="Ratio", argument="Ratio", minimum=0.0, maximum=1.0, values=np.zeros(TONE_ENTRIES)
         )
-        self._tables["tone_table"] = float_table(ctx, "tone_table", curve.texels)
+        self._tone = float_table(ctx, "tone_table", curve.texels)
         self._show, self._show_curve = display_pass(ctx), display_pass(ctx, curve)
         drawn = (self.samples * self.size[0], self.samples * self.size[1])
         self._chain = None
@@ -172,52 +176,8 @@ class Renderer:
         self._screen = render_target(ctx, self.size, {"grey": "R8"})
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
-    def _band_lookup(self) -> LookupTable:
-        """Band radiance against temperature; reflective bands compile it but never read it."""
-        table = self.band_table
-        return LookupTable(
-            name="band_radiance",
-            quantity="Radiance",
-            argument="Kelvin",
-            minimum=150.0 if table is None else float(table.temperature[0]),
-            maximum=700.0 if table is None else float(table.temperature[-1]),
-            values=np.zeros(2) if table is None else table.radiance,
-        )
-
-    def _records(self, time_of_day: float) -> NDArray[np.float32]:
-        """Surface table at a time of the image day [s]."""
-        world, surfaces = self.world, self.world.scene.surfaces
-        offset = None if world.offsets is None else world.offsets.at(time_of_day, surfaces.area.size)
-        return surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations, offset)
-
-    def _set_moment(self, time_of_day: float, illumination: Illumination) -> None:
-        if self.world.offsets is not None:
-            update_table(self._tables["surface_table"], self._records(time_of_day))
-        self._set_tables(time_of_day)
-        for table in (illumination.sky_table(), *illumination.glow_tables()):
-            update_table(self._tables[f"{table.name}_table"], table.texels)
-        update_table(self._tables["mirror_table"], illumination.mirror_table())
-        self._blocks["Illumination"].write(
-            ILLUMINATION.pack(
-                quadrant=illumination.quadrant,
-                sun_direction=illumination.sun_direction,
-                beam=illumination.beam,
-                sky_radiance=illumination.sky_radiance,
-                ground_radiance=illumination.ground_radiance,
-            )
-        )
-
-    def _set_tables(self, time_of_day: float) -> None:
-        """Upload the tables of a moment, where the clock has moved."""
-        if time_of_day == self._tables_at:
-            return
-        for name, texels in shade_texels(self.world.tables, time_of_day).items():
-            update_table(self._tables[name], texels)
-        self._tables_at = time_of_day
-
-    def _draw(self, camera: Camera, illumination: Illumination) -> None:
-        position = self.world.scene.mesh.position
-        near, far = clip_distances(camera, self.size, position.min(axis=0), position.max(axis=0))
+    def _set_view(self, camera: Camera, illumination: Illumination) -> None:
+        near, far = clip_distances(camera, self.size, *self._box)
         corner, right, up = camera.view_rays(self.size)
         self._blocks["ViewFrame"].write(
             VIEW_FRAME.pack(
@@ -231,6 +191,32 @@ class Renderer:
         air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
+
+    def _show_quickly(
+        self, camera: Camera, display: DisplaySettings, frame: int, _wanted: set[str]
+    ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
+        if self._quick is None or self._rows is None:
+            drawn, emissive = (self.samples * self.size[0], self.samples * self.size[1]), self.band_table is not None
+            self._quick = QuickFrame(self.ctx, self.world, drawn, self._moment.generated, emissive=emissive)
+            self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
+        self._quick.settle(self._moment.number)
+        field = float(np.radians(camera.horizontal_field_of_view))
+        signal = self._rows.run(self._quick.draw(camera), field, frame)
+        settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
+        return {"display": self._rows.show(settings)}, settings
+
+    def _show_all(
+        self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str]
+    ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
+        self._draw()
+        planes = self._read(wanted)
+        self._detect(camera, planes, frame)
+        seen = exposed(planes)
+        settings = fix_window(display, seen)
+        planes["display"] = self._display(settings, seen)
+        return {name: plane for name, plane in planes.items() if name in wanted}, settings
+
+    def _draw(self) -> None:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
@@ -241,11 +227,10 @@ class Renderer:
     def _bind(self) -> None:
         for block in _BLOCKS:
             self._blocks[block.name].bind_to_uniform_block(block.binding)
-        for name, texture in self._tables.items():
-            texture.use(TEXTURE_UNITS[name])
+        self._moment.bind()
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
-    def _read(self) -> dict[str, NDArray[Any]]:
+    def _read(self, wanted: set[str]) -> dict[str, NDArray[Any]]:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
@@ -257,7 +242,7 @@ class Renderer:
         surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
         planes["surface_id"] = surface
         planes["feature"] = np.where(surface < 0, -1, self.world.scene.surfaces.feature[np.maximum(surface, 0)])
-        if self.band_table is not None:
+        if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes
 
@@ -281,22 +266,14 @@ class Renderer:
         if not settings.is_straight:
             show = self._show_curve
             curve = tone_curve(settings.tone, settings.gamma, seen, low, high)
-            update_table(self._tables["tone_table"], curve[None, :])
-            self._tables["tone_table"].use(TEXTURE_UNITS["tone_table"])
+            update_table(self._tone, curve[None, :])
+            self._tone.use(TEXTURE_UNITS["tone_table"])
         self._screen.use()
         self.ctx.enable_only(moderngl.NOTHING)
         show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
 
 
-def exposure_for(look: Sensitivity, radiance: NDArray[np.float32]) -> float:
-    """Share of the light that keeps all but a hundredth of the pixels below FILLED of what the detector holds."""
-    bright = float(np.quantile(radiance, 0.99))
-    return min(1.0, FILLED * look.full / bright) if bright > 0.0 else 1.0
-
-
 def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
-    """Radiances that an automatic gain goes by: of surfaces, so that a cold or bright sky does not take the window."""
-    seen = planes["surface_id"] >= 0
-    radiance: NDArray[np.float32] = planes.get("signal", planes["radiance"])
-    return radiance[seen] if np.any(seen) else radiance.ravel()
+    """Radiances that an automatic gain goes by, of what the detector reports where there is one."""
+    return sampled_surfaces(planes.get("signal", planes["radiance"]), planes["surface_id"] >= 0)

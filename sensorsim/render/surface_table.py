@@ -20,12 +20,8 @@ def surface_table(
     feature: NDArray[np.int32],
     assignment: Assignment,
     orientations: OrientationSet,
-    offset: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float32]:
-    """Records (rows, SURFACES_PER_ROW * SURFACE_TEXELS, 4) of surfaces with normals (s, 3).
-
-    `offset` (s,) [K] is what surfaces differ from the tables by at the moment.
-    """
+    """Records (rows, SURFACES_PER_ROW * SURFACE_TEXELS, 4) of surfaces with normals (s, 3)."""
     corner, weight = orientations.locate(normal)
     count = normal.shape[0]
     record = np.zeros((count, SURFACE_TEXELS, 4))
@@ -35,8 +31,6 @@ def surface_table(
     record[:, 3] = quadrant_view_factors(normal)
     record[:, 4, 0] = assignment.nir_reflectance
     record[:, 4, 1] = feature
-    if offset is not None:
-        record[:, 4, 2] = offset
     codes = np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)
     record[:, 5] = gloss_records(codes[assignment.wall_type], assignment.emissivity)
     rows = -(-count // SURFACES_PER_ROW)
@@ -44,3 +38,8 @@ def surface_table(
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
     padded[:count] = record
     return padded.reshape(rows, columns * SURFACE_TEXELS, 4)
+
+
+def set_offsets(records: NDArray[np.float32], offset: NDArray[np.float64]) -> None:
+    """Write into the records what surfaces (s,) differ from the tables by at a moment [K]."""
+    records.reshape(-1, SURFACE_TEXELS, 4)[: offset.size, 4, 2] = offset

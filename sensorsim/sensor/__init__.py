@@ -10,6 +10,7 @@ from sensorsim.sensor.display import (
     window_from_temperatures,
     window_limits,
 )
+from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places, focal_plane
 from sensorsim.sensor.intensifier import Intensifier
 from sensorsim.sensor.load import load_sensor, sensor_names
@@ -19,6 +20,7 @@ from sensorsim.sensor.optics import Optics
 from sensorsim.sensor.point_spread import Kernel, blur_kernel, system_transfer
 from sensorsim.sensor.random_field import deviate_table, normal_deviate
 from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, read_out, stream_seed
+from sensorsim.sensor.row_chain import RowChain
 from sensorsim.sensor.scan import Scan
 from sensorsim.sensor.sensitivity import Sensitivity, netd, sensitivity
 from sensorsim.sensor.sensor import Sensor
@@ -35,6 +37,7 @@ __all__ = [
     "Kernel",
     "Noise",
     "Optics",
+    "RowChain",
     "Scan",
     "Sensitivity",
     "Sensor",
@@ -44,6 +47,7 @@ __all__ = [
     "correction_radiance",
     "deviate_table",
     "display_code",
+    "exposure_for",
     "fix_window",
     "fixed_pattern",
     "focal_plane",
@@ -57,6 +61,7 @@ __all__ = [
     "read_out",
     "remember",
     "renewed_share",
+    "sampled_surfaces",
     "sensitivity",
     "sensor_names",
     "stream_seed",

@@ -4,6 +4,8 @@ The twin of shaders/common/random.glsl, bit for bit. pcg4d of [Jarzynski2020] sc
 bits of the first choose one of 4096 equally likely deviates of unit variance, the largest 3.67.
 """
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
@@ -14,10 +16,13 @@ DEVIATES = 4096
 _SHIFT = np.uint32(20)  # 32 bits less those that count the deviates
 
 
+@cache
 def deviate_table() -> FloatArray:
-    """The deviates (DEVIATES,), quantiles of the normal distribution scaled to unit variance."""
+    """The deviates (DEVIATES,), quantiles of the normal distribution scaled to unit variance; not to be written to."""
     quantile = ndtri((np.arange(DEVIATES) + 0.5) / DEVIATES)
-    return np.asarray(quantile / np.sqrt(np.mean(quantile**2)))
+    table = np.asarray(quantile / np.sqrt(np.mean(quantile**2)))
+    table.flags.writeable = False
+    return table
 
 
 def normal_deviate(column: NDArray[np.integer], row: NDArray[np.integer], frame: int, seed: int) -> FloatArray:

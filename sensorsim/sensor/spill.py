@@ -7,12 +7,16 @@ back as a disc of fixed size [Thomas2005]. The NumPy twin of shaders/sensor/bloc
 """
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import convolve
 
 from sensorsim.radiometry import FloatArray
 from sensorsim.sensor.sensor import Sensor
+
+IntArray = NDArray[np.int64]
 
 STREAK_BLOCK = 16  # elements along a row that share a level
 HALO_BLOCK = 4  # elements to either side of which excess is joined
@@ -34,26 +38,31 @@ def halo_radius(sensor: Sensor, field: float, width: int) -> float:
     return max(1.0, sensor.intensifier.halo_radius * width / (field * HALO_BLOCK))
 
 
-def block_mean(light: FloatArray, width: int, height: int) -> FloatArray:
+def block_mean(light: NDArray[Any], width: int, height: int) -> FloatArray:
     """Means of blocks; those at the right and at the top, where rows are counted from, may be smaller."""
-    rows, columns = -(-light.shape[0] // height), -(-light.shape[1] // width)
-    flipped, means = light[::-1], np.zeros((rows, columns))
-    for row in range(rows):
-        for column in range(columns):
-            part = flipped[row * height : (row + 1) * height, column * width : (column + 1) * width]
-            means[row, column] = part.mean()
-    return means[::-1]
+    total = _sums(_sums(light[::-1].T, height).T, width)
+    number = [_sums(np.ones((1, count)), extent)[0] for count, extent in zip(light.shape, (height, width), strict=True)]
+    return np.asarray((total / np.outer(*number))[::-1])
 
 
-def baseline(light: FloatArray, kept: float) -> FloatArray:
+def _sums(values: NDArray[Any], extent: int) -> NDArray[Any]:
+    """Sums of `extent` neighbours along the rows, of what is left at their ends."""
+    if extent == 1:
+        return values
+    rows, columns = values.shape
+    padded = np.pad(values, ((0, 0), (0, -columns % extent)))
+    return np.asarray(padded.reshape(rows, -1, extent).sum(axis=2, dtype=np.float64))
+
+
+def baseline(light: NDArray[Any], kept: float) -> FloatArray:
     """Level (height, blocks) [W m-2 sr-1] that channels have settled to."""
     blocks = block_mean(light, STREAK_BLOCK, 1)
-    count = blocks.shape[1]
-    weight = kept ** np.arange(count)
-    return np.asarray(sum(w * np.roll(blocks, back, axis=1) for back, w in enumerate(weight)) / weight.sum())
+    place = np.arange(blocks.shape[1])
+    weight = kept ** ((place[None, :] - place[:, None]) % place.size)  # of a block in what is left at another
+    return np.asarray(blocks @ (weight / weight[0].sum()))
 
 
-def halo(light: FloatArray, full: float, share: float, radius: float) -> FloatArray:
+def halo(light: NDArray[Any], full: float, share: float, radius: float) -> FloatArray:
     """Halo (blocks, blocks) [W m-2 sr-1] of what lies above `full`, over a disc of `radius` blocks."""
     excess = block_mean(np.maximum(light - full, 0.0), HALO_BLOCK, HALO_BLOCK)
     line = np.arange(-int(radius), int(radius) + 1)
@@ -63,15 +72,21 @@ def halo(light: FloatArray, full: float, share: float, radius: float) -> FloatAr
 
 def spread_blocks(blocks: FloatArray, size: tuple[int, int], width: int, height: int) -> FloatArray:
     """Values of blocks at each element (height, width), straight between their middles; rows are counted from below."""
-    x = np.clip((np.arange(size[0]) + 0.5) / width - 0.5, 0.0, blocks.shape[1] - 1.0)
-    y = np.clip((np.arange(size[1]) + 0.5) / height - 0.5, 0.0, blocks.shape[0] - 1.0)
-    flipped = blocks[::-1]
-    left, low = (
-        np.minimum(x.astype(int), max(blocks.shape[1] - 2, 0)),
-        np.minimum(y.astype(int), max(blocks.shape[0] - 2, 0)),
-    )
-    right, high = np.minimum(left + 1, blocks.shape[1] - 1), np.minimum(low + 1, blocks.shape[0] - 1)
-    across, up = x - left, (y - low)[:, None]
-    lower = flipped[low][:, left] * (1.0 - across) + flipped[low][:, right] * across
-    upper = flipped[high][:, left] * (1.0 - across) + flipped[high][:, right] * across
-    return np.asarray((lower * (1.0 - up) + upper * up)[::-1])
+    rows = blocks_by_row(blocks, size[1], height)
+    left, share = block_places(size[0], blocks.shape[1], width)
+    right = np.minimum(left + 1, blocks.shape[1] - 1)
+    return np.asarray(rows[:, left] * (1.0 - share) + rows[:, right] * share)
+
+
+def blocks_by_row(blocks: FloatArray, rows: int, height: int) -> FloatArray:
+    """Values of blocks at each of `rows` rows (rows, blocks), straight between the middles of blocks of a height."""
+    low, share = block_places(rows, blocks.shape[0], height)
+    high, flipped = np.minimum(low + 1, blocks.shape[0] - 1), blocks[::-1]
+    return np.asarray((flipped[low] * (1.0 - share[:, None]) + flipped[high] * share[:, None])[::-1])
+
+
+def block_places(count: int, blocks: int, extent: int) -> tuple[IntArray, FloatArray]:
+    """For each of `count` elements the block whose middle lies before it, and how far it is to the next one's."""
+    place = np.clip((np.arange(count) + 0.5) / extent - 0.5, 0.0, blocks - 1.0)
+    low = np.minimum(place.astype(np.int64), max(blocks - 2, 0))
+    return low, place - low

@@ -1,0 +1,106 @@
+"""What a moment of the day is to the shaders: tables of walls and sky as textures, light as a block.
+
+They are written again only where the clock or the surroundings have changed: a camera that flies costs nothing here,
+and a clock that moves one slice of the tables, interpolated, with nothing solved.
+"""
+
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from sensorsim.gpu import float_table, update_table
+from sensorsim.radiometry import BandTable
+from sensorsim.render.blocks import ILLUMINATION
+from sensorsim.render.illumination import Illumination, dark
+from sensorsim.render.mirror import mirror_glsl, rise_table
+from sensorsim.render.passes import TEXTURE_UNITS
+from sensorsim.render.surface_table import set_offsets, surface_table
+from sensorsim.render.world import World
+from sensorsim.tables import LookupTable
+from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
+
+
+class MomentTables:
+    """Textures and light of one world in one band; `number` counts the moments that they have held."""
+
+    def __init__(self, ctx: moderngl.Context, world: World, band_table: BandTable | None) -> None:
+        self.world, self.number = world, 0
+        self.time_of_day = -1.0  # [s] that the tables of walls are of
+        self.illumination: Illumination | None = None
+        self.uploaded = 0  # [byte] since the beginning
+        surfaces = world.scene.surfaces
+        self.records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
+        band, skies = _band_lookup(band_table), (dark().sky_table(), *dark().glow_tables())
+        texels: dict[str, NDArray[Any]] = {
+            "surface_table": self.records,
+            "band_radiance_table": band.texels,
+            **{f"{table.name}_table": table.texels for table in skies},
+            "rise_table": rise_table(),
+            "mirror_table": dark().mirror_table(),
+            **shade_texels(world.tables, 0.0),
+        }
+        self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
+        self.block = ctx.buffer(reserve=ILLUMINATION.dtype.itemsize)
+        self.generated = {
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
+            "band_radiance": band.glsl(),
+            **{table.name: table.glsl() for table in skies},
+            "mirror_size": mirror_glsl(),
+        }
+
+    def bind(self) -> None:
+        """Make the shaders see all of it."""
+        self.block.bind_to_uniform_block(ILLUMINATION.binding)
+        for name, texture in self.textures.items():
+            texture.use(TEXTURE_UNITS[name])
+
+    def set(self, time_of_day: float, illumination: Illumination) -> None:
+        """Upload what a time of the image day [s] and its surroundings have changed."""
+        if time_of_day == self.time_of_day and illumination is self.illumination:
+            return
+        if time_of_day != self.time_of_day:
+            self._set_walls(time_of_day)
+        if illumination is not self.illumination:
+            self._set_light(illumination)
+        self.time_of_day, self.illumination = time_of_day, illumination
+        self.number += 1
+
+    def _set_walls(self, time_of_day: float) -> None:
+        offsets = self.world.offsets
+        if offsets is not None:
+            set_offsets(self.records, offsets.at(time_of_day, self.world.scene.surfaces.area.size))
+            self._update("surface_table", self.records)
+        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+            self._update(name, texels)
+
+    def _set_light(self, illumination: Illumination) -> None:
+        for table in (illumination.sky_table(), *illumination.glow_tables()):
+            self._update(f"{table.name}_table", table.texels)
+        self._update("mirror_table", illumination.mirror_table())
+        self.block.write(
+            ILLUMINATION.pack(
+                quadrant=illumination.quadrant,
+                sun_direction=illumination.sun_direction,
+                beam=illumination.beam,
+                sky_radiance=illumination.sky_radiance,
+                ground_radiance=illumination.ground_radiance,
+            )
+        )
+
+    def _update(self, name: str, texels: NDArray[Any]) -> None:
+        update_table(self.textures[name], texels)
+        self.uploaded += 4 * texels.size
+
+
+def _band_lookup(table: BandTable | None) -> LookupTable:
+    """Band radiance against temperature; reflective bands compile it but never read it."""
+    return LookupTable(
+        name="band_radiance",
+        quantity="Radiance",
+        argument="Kelvin",
+        minimum=150.0 if table is None else float(table.temperature[0]),
+        maximum=700.0 if table is None else float(table.temperature[-1]),
+        values=np.zeros(2) if table is None else table.radiance,
+    )
