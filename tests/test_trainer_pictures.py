@@ -39,8 +39,8 @@ AIR = Air(
 
 def frame(*views: ViewRequest, **values: object) -> FrameRequest:
     plain: dict[str, object] = {
-        "frame": 7, "host_frame": 1, "fresh": True, "moment": MORNING, "sun": True, "entities": (), "air": None,
-        "layers": (), "bake": None,
+        "frame": 7, "host_frame": 1, "time": 0.0, "fresh": True, "moment": MORNING, "sun": True, "entities": (),
+        "air": None, "layers": (), "bake": None,
     }  # fmt: skip
     return FrameRequest(views=views or (VIEW,), **(plain | values))  # type: ignore[arg-type]
 
@@ -51,7 +51,7 @@ def knobs(**values: object) -> ViewRequest:
 
 @pytest.fixture(scope="module")
 def pictures() -> Iterator[ScenePictures]:
-    with ScenePictures(town(), SENSORS, SIZE) as source:
+    with ScenePictures(town(), SENSORS, SIZE, planes=None) as source:
         yield source
 
 
@@ -107,7 +107,7 @@ def test_the_first_sensor_that_is_on_is_shown_and_without_one_the_view_is_black(
 
 def test_what_cannot_be_shown_is_black_or_the_first_sensor_and_said_once() -> None:
     said: list[str] = []
-    with ScenePictures(town(), SENSORS[:1], SIZE, say=said.append) as source:
+    with ScenePictures(town(), SENSORS[:1], SIZE, planes=None, say=said.append) as source:
         wide = replace(VIEW, left=-85.0, right=85.0)
         for _ in range(3):
             assert source(frame(wide))[0]["display"].max() == 0
@@ -119,7 +119,7 @@ def test_what_cannot_be_shown_is_black_or_the_first_sensor_and_said_once() -> No
 
 def test_a_view_from_the_edge_of_the_map_does_not_end_the_session() -> None:
     said: list[str] = []
-    with ScenePictures(town(), SENSORS[:1], SIZE, say=said.append) as source:
+    with ScenePictures(town(), SENSORS[:1], SIZE, planes=None, say=said.append) as source:
         for place in ((5e5, -5e5, 4e5), (0.0, 0.0, -500.0), (0.0, 0.0, -5e5), (5e5, 5e5, 2.0)):
             planes = source(frame(replace(VIEW, position=place)))[0]
             assert planes["display"].shape == (48, 64)

@@ -51,6 +51,11 @@ from sensorsim.trainer.ring import PixelKind, RingWriter
 from sensorsim.trainer.scene_pictures import ScenePictures
 
 ENDLESS = 10**9
+RING_PLANES = {
+    "display": ("display",),
+    "centikelvin": ("display", "apparent_temperature"),
+    "radiance": ("display", "radiance"),
+}
 
 
 def serve(
@@ -91,7 +96,9 @@ def serve(
     with ExitStack() as stack:
         stopped = stack.enter_context(_stopped_by_signals())
         baker = _baker(place, series, settings)
-        draw = ScenePictures(world, sensors, size_of, bake=baker, on_bake=told, say=say, backend=backend)
+        draw = ScenePictures(
+            world, sensors, size_of, bake=baker, on_bake=told, say=say, backend=backend, planes=RING_PLANES[ring_kind]
+        )
         stack.enter_context(draw).prepare(range(len(sensors)))
         out = None if ring is None else stack.enter_context(RingWriter(ring, _kind(ring_kind), size_of))
         link = stack.enter_context(UdpEndpoint(endpoint))

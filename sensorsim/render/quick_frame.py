@@ -6,7 +6,7 @@ nearer one is shaded wherever it was drawn first, so high features are drawn fir
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import moderngl
 import numpy as np
@@ -72,7 +72,7 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
-    def draw(self, camera: Camera) -> NDArray[np.float32]:
+    def draw(self, camera: Camera, draw_solids: Callable[[], None]) -> NDArray[np.float32]:
         """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen."""
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
@@ -82,6 +82,7 @@ class QuickFrame:
         for surfaces, first, last in zip(self.passes, (0, self.matt), (self.matt, self.triangles), strict=False):
             if last > first:
                 surfaces.vertices.render(first=3 * first, vertices=3 * (last - first))
+        draw_solids()
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
         low, high = horizon_rows(camera, self.target.size)

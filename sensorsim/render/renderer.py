@@ -21,6 +21,7 @@ from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS, background_pass, display_pass, surface_pass
 from sensorsim.render.quick_frame import QuickFrame
 from sensorsim.render.sensor_chain import SensorChain
+from sensorsim.render.solids import SolidPass, Solids
 from sensorsim.render.world import World
 from sensorsim.sensor import (
     TONE_ENTRIES,
@@ -69,6 +70,8 @@ class Renderer:
         self.samples, self.blur_energy = samples, blur_energy
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
         self._quick: QuickFrame | None = None
+        self._things: Solids | None = None
+        self._solids: SolidPass | None = None
         self._rows: RowChain | None = None
         self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
         self.ctx = create_context(backend)
@@ -97,18 +100,21 @@ class Renderer:
     def render(
         self, camera: Camera, time_of_day: float, *, display: DisplaySettings | None = None,
         illumination: Illumination | None = None, frame: int = 0, planes: Collection[str] | None = None,
+        solids: Solids | None = None,
     ) -> Picture:  # fmt: skip
         """The picture from `camera` at a time of the image day [s].
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
         bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
         number; all, or those asked for. Display alone takes a quicker road: see `quick_frame`; its codes may differ by
-        one. `illumination` replaces the surroundings of the moment.
+        one. `illumination` replaces the surroundings of the moment. `solids` stand among the surfaces; their ids follow
+        on those of the scene.
         """
         wanted = self._wanted(planes)
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
         with self.ctx:  # another renderer's context may have become the current one
+            self._things = solids
             self._moment.set(time_of_day, illumination)
             self._set_view(camera, illumination)
             chosen = self.sensor.display if display is None else display
@@ -177,7 +183,11 @@ class Renderer:
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        near, far = clip_distances(camera, self.size, *self._box)
+        lowest, highest = self._box
+        if self._things is not None:
+            corners = self._things.triangles.reshape(-1, 3)
+            lowest, highest = np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
+        near, far = clip_distances(camera, self.size, lowest, highest)
         corner, right, up = camera.view_rays(self.size)
         self._blocks["ViewFrame"].write(
             VIEW_FRAME.pack(
@@ -201,7 +211,7 @@ class Renderer:
             self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
         self._quick.settle(self._moment.number)
         field = float(np.radians(camera.horizontal_field_of_view))
-        signal = self._rows.run(self._quick.draw(camera), field, frame)
+        signal = self._rows.run(self._quick.draw(camera, self._draw_solids), field, frame)
         settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
         return {"display": self._rows.show(settings)}, settings
 
@@ -223,6 +233,14 @@ class Renderer:
         self._background.draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._surfaces.draw()
+        self._draw_solids()
+
+    def _draw_solids(self) -> None:
+        if self._things is None:
+            return
+        if self._solids is None:
+            self._solids = SolidPass(self.ctx, self._moment.generated, emissive=self.band_table is not None)
+        self._solids.draw(self._things, self.world.scene.surfaces.area.size)
 
     def _bind(self) -> None:
         for block in _BLOCKS:
@@ -241,7 +259,8 @@ class Renderer:
         }
         surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
         planes["surface_id"] = surface
-        planes["feature"] = np.where(surface < 0, -1, self.world.scene.surfaces.feature[np.maximum(surface, 0)])
+        feature = np.append(self.world.scene.surfaces.feature, -1)  # of what is no surface of the scene: none
+        planes["feature"] = feature[np.where(surface < 0, feature.size - 1, np.minimum(surface, feature.size - 1))]
         if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes

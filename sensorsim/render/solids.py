@@ -13,7 +13,13 @@ from sensorsim.render.blocks import AIR, ILLUMINATION, VIEW_FRAME
 from sensorsim.render.passes import TEXTURE_UNITS
 
 # Of a vertex: name in the shader, components, type
-_ATTRIBUTES = (("position", 3, "f"), ("normal", 3, "f"), ("sky_quarters", 4, "f"), ("nature", 3, "f"), ("surface", 1, "i"))
+_ATTRIBUTES = (
+    ("position", 3, "f"),
+    ("normal", 3, "f"),
+    ("sky_quarters", 4, "f"),
+    ("nature", 3, "f"),
+    ("surface", 1, "i"),
+)
 _ROW = np.dtype([(name, f"<{kind}4", (count,)) for name, count, kind in _ATTRIBUTES])
 
 

@@ -17,23 +17,34 @@ from sensorsim.trainer.host_state import Triple
 from sensorsim.trainer.part_heat import Doing, excess_after, steady_excess
 from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude
 from sensorsim.trainer.things import Thing
-from sensorsim.trainer.vehicle_shape import VehicleShape
+from sensorsim.trainer.vehicle_shape import VehicleShape, face_normal
 
 METAL = 12  # code of figure 9 of [Report1978]
 EMISSIVITY, SOLAR_REFLECTANCE, LOW_LIGHT_REFLECTANCE = 0.92, 0.25, 0.35  # of olive paint
 STANDS = 0.3  # [m s-1] below which a vehicle whose speed nobody said stands
 FASTEST = 80.0  # [m s-1]; a place further away is one that it was put to
+TURN, SKIN_EVERY = 1.0, 10.0  # [deg], [s] after which the sunlight on a vehicle is found anew
 SMOOTHING = 1.0  # [s] over which a speed that nobody said is found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Known:
-    """A vehicle as it was: excess of its parts [K], place [m], speed [m s-1], and when [s]."""
+    """A vehicle as it was: excess of its parts [K], place [m], speed [m s-1], and when [s]; how its faces stood."""
 
     excess: FloatArray
     position: Triple
     speed: float
     time: float
+    faces: "_Faces"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Faces:
+    """Skin temperature (t,) [K] and view factors (t, 4) of a vehicle's faces, and what they were found for."""
+
+    found_for: object
+    skin: FloatArray
+    quarters: FloatArray
 
 
 class Fleet:
@@ -46,36 +57,49 @@ class Fleet:
     def solids(self, things: Sequence[Thing], time: float, world: World, time_of_day: float) -> Solids | None:
         """Triangles of all vehicles that have a shape, at a time [s] of any clock; None where there is none."""
         shown = [thing for thing in things if thing.model in self._shapes]
-        self._known = {thing.key: self._now(thing, time) for thing in shown}
+        self._known = {thing.key: self._now(thing, time, world, time_of_day) for thing in shown}
         if not shown:
             return None
         shapes = [self._shapes[thing.model] for thing in shown]
         triangles = np.concatenate([_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)])
-        excess = [self._known[thing.key].excess[shape.part] for shape, thing in zip(shapes, shown, strict=True)]
-        across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        normal, even = across / np.linalg.norm(across, axis=1)[:, None], np.ones(len(triangles))
-        wall = np.full(len(triangles), skin_wall(world))
-        skin = surface_temperature(world.tables, normal, wall, SOLAR_REFLECTANCE * even, time_of_day)
+        known, even = [self._known[thing.key] for thing in shown], np.ones(len(triangles))
+        heat = [one.faces.skin + one.excess[shape.part] for one, shape in zip(known, shapes, strict=True)]
         return Solids(
             triangles=triangles,
-            normal=normal,
-            quarters=quadrant_view_factors(normal),
-            temperature=skin + np.concatenate(excess),
+            normal=face_normal(triangles),
+            quarters=np.concatenate([one.faces.quarters for one in known]),
+            temperature=np.concatenate(heat),
             emissivity=EMISSIVITY * even,
             reflectance=LOW_LIGHT_REFLECTANCE * even,
             number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes]),
         )
 
-    def _now(self, thing: Thing, time: float) -> _Known:
+    def _now(self, thing: Thing, time: float, world: World, time_of_day: float) -> _Known:
         """A vehicle that appears has long been doing what it does."""
         before = self._known.get(thing.key)
+        faces = self._faces(thing, None if before is None else before.faces, world, time_of_day)
         if before is None:
             doing = _doing(thing, thing.speed or 0.0)
-            return _Known(excess=steady_excess(doing), position=thing.position, speed=doing.speed, time=time)
+            return _Known(
+                excess=steady_excess(doing), position=thing.position, speed=doing.speed, time=time, faces=faces
+            )
         elapsed = time - before.time
         speed = _speed(before, thing, elapsed) if thing.speed is None else thing.speed
         excess = excess_after(before.excess, _doing(thing, speed), elapsed)
-        return _Known(excess=excess, position=thing.position, speed=speed, time=time)
+        return _Known(excess=excess, position=thing.position, speed=speed, time=time, faces=faces)
+
+    def _faces(self, thing: Thing, before: _Faces | None, world: World, time_of_day: float) -> _Faces:
+        """The faces as last found, unless the vehicle turned, the clock went on or the world is another."""
+        angles = np.rint(np.array(thing.angles) / TURN) * TURN
+        found_for = (thing.model, *angles.tolist(), time_of_day // SKIN_EVERY, world.inputs_sha256)
+        if before is not None and before.found_for == found_for:
+            return before
+        shape = self._shapes[thing.model]
+        first, second, third = angles.tolist()
+        normal = face_normal(shape.triangles) @ (ENU_FROM_NED @ attitude((first, second, third))).T
+        wall, reflectance = np.full(len(normal), skin_wall(world)), np.full(len(normal), SOLAR_REFLECTANCE)
+        skin = surface_temperature(world.tables, normal, wall, reflectance, time_of_day)
+        return _Faces(found_for=found_for, skin=skin, quarters=quadrant_view_factors(normal))
 
 
 def skin_wall(world: World) -> int:

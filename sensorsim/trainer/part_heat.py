@@ -1,7 +1,7 @@
 """How much warmer than its sunlit skin each part of a vehicle is, from what the vehicle does.
 
-A part goes to the excess of its vehicle's state, dx/dt = (goal - x) / time constant, with one constant for warming and a
-longer one for cooling; steps are exact for any length. Excesses and constants are estimates.
+A part goes to the excess of its vehicle's state, dx/dt = (goal - x) / time constant, with one constant for warming and
+a longer one for cooling; steps are exact for any length. Excesses and constants are estimates.
 """
 
 from dataclasses import dataclass

@@ -1,10 +1,10 @@
 """A world drawn for the host: the `PictureSource` that joins the image generator to the renderer.
 
-Each view has a renderer of its own, since a detector may remember the frame before. The surroundings of a moment are
-those of the last whole second of the host's clock. A new world is taken in whole between two frames.
+Each view has a renderer of its own, since a detector may remember the frame before. Walls and surroundings are those of
+the last whole second of the host's clock. A new world is taken in whole between two frames.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from types import TracebackType
@@ -16,12 +16,17 @@ from numpy.typing import NDArray
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.errors import SensorsimError
 from sensorsim.render import Illumination, Renderer, World
+from sensorsim.render.solids import Solids
 from sensorsim.sensor import Sensor
 from sensorsim.trainer.background_bake import BackgroundBake, Baked
+from sensorsim.trainer.fleet import Fleet
 from sensorsim.trainer.frame_request import FrameRequest, ViewRequest
 from sensorsim.trainer.host_state import SensorState
 from sensorsim.trainer.live_surroundings import live_surroundings
 from sensorsim.trainer.sensor_look import look
+from sensorsim.trainer.things import Thing, things_asked
+from sensorsim.trainer.vehicle_shape import VehicleShape
+from sensorsim.trainer.vehicles import built_in_vehicles
 from sensorsim.trainer.view_camera import mirrored, view_camera
 
 Planes = Mapping[str, NDArray[Any]]
@@ -49,12 +54,21 @@ class ScenePictures:
         on_bake: Callable[[Baked], None] = lambda _: None,
         say: Callable[[str], None] = lambda _: None,
         backend: str = "auto",
+        planes: Collection[str] | None = ("display",),
+        shapes: Mapping[str, VehicleShape] | None = None,
+        heard: Callable[[float], Sequence[Thing]] = lambda _: (),
     ) -> None:
-        """sensors: by the number that Sensor Control and view type name them with, from 0; size: of every picture."""
+        """sensors: by the number that Sensor Control and view type name them with, from 0; size: of every picture.
+
+        planes: that pictures have besides display, None for all; shapes: of vehicles in place of those built in;
+        heard: vehicles that others than the host tell of, at an IG time [s].
+        """
         self.world, self.sensors, self.size = world, tuple(sensors), size
         self._bake, self._on_bake, self._say, self._backend = bake, on_bake, say, backend
         self._eyes: dict[tuple[int, int], _Eye] = {}
         self._told: set[str] = set()
+        self._planes, self._heard = planes, heard
+        self._fleet = Fleet({**built_in_vehicles(), **(shapes or {})})
 
     def __enter__(self) -> Self:
         return self
@@ -67,7 +81,9 @@ class ScenePictures:
     def __call__(self, request: FrameRequest) -> dict[int, Planes]:
         """Planes of each view by its number; a view that cannot be drawn is black."""
         self._take_world(request)
-        return {view.number: self._draw(request, view) for view in request.views}
+        things = [*things_asked(request.entities), *self._heard(request.time)]
+        solids = self._fleet.solids(things, request.time, self.world, self._time_of_day(request))
+        return {view.number: self._draw(request, view, solids) for view in request.views}
 
     def release(self) -> None:
         """Gives back the OpenGL contexts."""
@@ -92,26 +108,31 @@ class ScenePictures:
             self.world = done.world
         self._on_bake(done)
 
-    def _draw(self, request: FrameRequest, view: ViewRequest) -> Planes:
+    def _time_of_day(self, request: FrameRequest) -> float:
+        return float(int(time_of_day(request.moment, self.world.environment.image_start)))
+
+    def _draw(self, request: FrameRequest, view: ViewRequest, solids: Solids | None) -> Planes:
         control, device = self._choice(view)
         if not control.on:
             return self._black()
         try:
-            planes = self._look(request, view, control, device)
+            planes = self._look(request, view, control, device, solids)
         except SensorsimError as error:  # the host put the view where there is no picture
             self._tell(f"view {view.number} is black: {error}")
             return self._black()
         return {**planes, "display": mirrored(planes["display"], view.mirror)}
 
-    def _look(self, request: FrameRequest, view: ViewRequest, control: SensorState, device: int) -> Planes:
+    def _look(
+        self, request: FrameRequest, view: ViewRequest, control: SensorState, device: int, solids: Solids | None
+    ) -> Planes:
         camera = view_camera(view)
         eye = self._eye(view.number, device, frozenset(one.number for one in request.views))
-        time = time_of_day(request.moment, self.world.environment.image_start)
-        made_of = (int(time), request.air, request.sun, view.visibility)
+        time = self._time_of_day(request)
+        made_of = (time, request.air, request.sun, view.visibility)
         if eye.around is None or eye.made_of != made_of:
             eye.around = live_surroundings(eye.renderer, time, request, view.visibility)
             eye.made_of = made_of
-        return look(eye.renderer, camera, time, eye.around, control, request.frame)
+        return look(eye.renderer, camera, time, eye.around, control, request.frame, planes=self._planes, solids=solids)
 
     def _choice(self, view: ViewRequest) -> tuple[SensorState, int]:
         """The first sensor of a view that is on, and which of ours it is; without a word on any, by the view's type."""

@@ -1,6 +1,6 @@
 """One look of a renderer with the host's knobs on its sensor."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sensorsim.constants import PI
 from sensorsim.render import Camera, Illumination, Renderer
 from sensorsim.render.renderer import exposed
+from sensorsim.render.solids import Solids
 from sensorsim.trainer.host_state import SensorState
 from sensorsim.trainer.sensor_knobs import WHITE, Knobs, display_settings, sensor_picture
 
@@ -25,18 +26,23 @@ def look(
     around: Illumination,
     control: SensorState,
     frame: int,
+    *,
+    planes: Collection[str] | None = ("display",),
+    solids: Solids | None = None,
 ) -> Mapping[str, NDArray[Any]]:
-    """Planes of the frame of that number, with display codes as the host's knobs have them."""
+    """Planes of the frame of that number, all for None, with display codes as the host's knobs have them."""
     knobs = sensor_range(renderer, around)
     window = replace(display_settings(control, knobs), polarity="white-hot")
-    picture = renderer.render(camera, time_of_day, display=window, illumination=around, frame=frame)
-    planes = picture.planes
-    if control.ac_coupling > 0.0 or control.noise > 0.0 or control.line_dropout:
-        signal = planes.get("signal", planes["radiance"])
-        codes = sensor_picture(signal, control, knobs, frame, seen=exposed(planes))
+    spoilt = control.ac_coupling > 0.0 or control.noise > 0.0 or control.line_dropout
+    wanted = None if spoilt else planes
+    seen = renderer.render(
+        camera, time_of_day, display=window, illumination=around, frame=frame, planes=wanted, solids=solids
+    ).planes
+    if spoilt:
+        codes = sensor_picture(seen.get("signal", seen["radiance"]), control, knobs, frame, seen=exposed(seen))
     else:
-        codes = np.asarray(WHITE - planes["display"] if control.black_hot else planes["display"], dtype=np.uint8)
-    return {**planes, "display": codes}
+        codes = np.asarray(WHITE - seen["display"] if control.black_hot else seen["display"], dtype=np.uint8)
+    return {**seen, "display": codes}
 
 
 def sensor_range(renderer: Renderer, around: Illumination) -> Knobs:

@@ -45,6 +45,12 @@ def face_area(triangles: FloatArray) -> FloatArray:
     return np.asarray(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1))
 
 
+def face_normal(triangles: FloatArray) -> FloatArray:
+    """Outward unit normals (t, 3)."""
+    across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return np.asarray(across / np.linalg.norm(across, axis=1)[:, None])
+
+
 def box(middle: Sequence[float], size: Sequence[float]) -> FloatArray:
     """Twelve triangles of a box; middle and size (3,): forward, right, up [m]."""
     quads = _CORNERS[np.array(_FACES)] * np.array(size) + np.array(middle)
@@ -61,7 +67,7 @@ def cylinder(middle: Sequence[float], radius: float, length: float, axis: int) -
     sides = [np.stack([low[here], low[there], high[there]], axis=1)]
     sides.append(np.stack([low[here], high[there], high[here]], axis=1))
     for ends, order in ((low, (there, here)), (high, (here, there))):
-        hub = np.zeros((SIDES, 3)) + [0.0, 0.0, ends[0, 2]]
+        hub = np.tile([0.0, 0.0, ends[0, 2]], (SIDES, 1))
         sides.append(np.stack([hub, ends[order[0]], ends[order[1]]], axis=1))
     turn = [(2, 0, 1), (1, 2, 0), (0, 1, 2)][axis]  # even permutations: outside stays outside
     return _down(np.concatenate(sides)[:, :, turn] + np.array(middle))
