@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sensorsim.errors import InputError
 from sensorsim.trainer.frame_request import FrameRequest, ViewRequest
+from sensorsim.trainer.h264_time import with_time
 from sensorsim.trainer.klv import local_set
 from sensorsim.trainer.local_place import LocalPlace
 
@@ -58,7 +59,8 @@ class VideoOut:
         frame.pts, frame.time_base = self._count, 1 / self._rate
         metadata = view_metadata(request, view, self._place, self._size, self._source)
         self._file.mux(self._metadata_packet(metadata))
-        self._file.mux(self._video.encode(frame))
+        for packet in self._video.encode(frame):  # one a picture: nothing is held back
+            self._file.mux(self._timed(packet, scene_time(request)))
         self._count += 1
 
     def close(self) -> None:
@@ -76,6 +78,12 @@ class VideoOut:
     ) -> None:
         self.close()
 
+    def _timed(self, packet: Any, microseconds: int) -> Any:
+        timed = self._av.Packet(with_time(bytes(packet), microseconds))
+        timed.stream, timed.time_base, timed.is_keyframe = self._video, packet.time_base, packet.is_keyframe
+        timed.pts, timed.dts = packet.pts, packet.dts
+        return timed
+
     def _metadata_packet(self, data: bytes) -> Any:
         from av.packet import PacketSideData, packet_sidedata_type_from_literal
 
@@ -88,13 +96,15 @@ class VideoOut:
         return packet
 
 
+def scene_time(request: FrameRequest) -> int:
+    """UNIX time of the scene's clock [us], 0 before 1970."""
+    return max(0, round(request.moment.timestamp() * 1e6))
+
+
 def view_metadata(
     request: FrameRequest, view: ViewRequest, place: LocalPlace, size: tuple[int, int], source: str
 ) -> bytes:
-    """ST 0601 of a view: a platform that is level and heads north, and the sensor's angles against it.
-
-    The time is that of the scene's clock, 0 before 1970.
-    """
+    """ST 0601 of a view: a platform that is level and heads north, and the sensor's angles against it."""
     latitude, longitude, altitude = place.geodetic(np.array(view.position))
     yaw, pitch, roll = view.angles
     wide = view.right - view.left
@@ -113,7 +123,7 @@ def view_metadata(
         "relative_roll": roll % 360.0,
     }
     texts = {"image_source": source, "coordinate_system": "Geodetic WGS84"}
-    return local_set(max(0, round(request.moment.timestamp() * 1e6)), numbers, texts)
+    return local_set(scene_time(request), numbers, texts)
 
 
 def _muxer(target: str) -> tuple[str, str, dict[str, str]]:
