@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cigi_samples import first_packet
+from mcap.reader import make_reader
 from small_world import LATITUDE, LONGITUDE, town_features, write_town
 
 from sensorsim.cli import main
@@ -71,6 +72,7 @@ def test_a_served_host_gets_a_frame_for_each_message_and_pictures_in_the_ring(
     host.start()
     words = ["serve", scene, "--at", "1976-02-07T10:00", "--size", "64x48", "--rate", "10", "--port", "0"]
     words += ["--host-port", host.socket.getsockname()[1], "--ring", ring, "--frames", FRAMES, "--preset", "report"]
+    words += ["--video", tmp_path / "a.ts", "--bag", tmp_path / "a.mcap", "--dis", "0"]
     monkeypatch.setattr(sys, "argv", ["sensorsim", *map(str, words)])
     with pytest.raises(SystemExit) as left:
         main()
@@ -81,6 +83,9 @@ def test_a_served_host_gets_a_frame_for_each_message_and_pictures_in_the_ring(
     assert f"{FRAMES} frames" in told
     assert "127.0.0.1" in told
     assert not ring.exists()
+    assert (tmp_path / "a.ts").stat().st_size > 10_000
+    with (tmp_path / "a.mcap").open("rb") as bag:
+        assert sum(1 for _ in make_reader(bag).iter_messages()) == 2 * FRAMES
     assert len(host.pictures) > FRAMES // 2
     white, black = (host.pictures[max(k for k in host.pictures if k[0] < last)] for last in (15, FRAMES))
     assert white.std() > 5.0
@@ -114,11 +119,32 @@ def test_a_server_ends_cleanly_on_sigterm_and_listens_on_this_machine_alone(tmp_
     assert not ring.exists()
 
 
-def test_the_example_host_flies_and_reports(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_example_host_flies_and_reports(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     fly = runpy.run_path(str(ROOT / "tools" / "example_host.py"))["main"]
-    options = ["--size", "64x48", "--preset", "report", "--level", "IA"]
-    figures = fly(["--seconds", "2", "--rate", "10", "--", *options])
+    scene, options = write_town(tmp_path, town_features()), ["--size", "64x48", "--preset", "report"]
+    figures = fly(["--seconds", "2", "--rate", "10", "--scene", str(scene), "--", *options])
     assert figures["frames"] == 20
     assert figures["frames_lost"] == figures["pictures_not_seen"] == 0
     assert 0.0 < figures["latency_p50_ms"] < 1e3
     assert "latency_p99_ms" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [(["--cigi", "2"], "--cigi"), (["--model", "plane=x.glb"], "--model"), (["--model", "tank=none.obj"], "none.obj"),
+     (["--host", "somewhere"], "host"), (["--ring", "x", "--ring-kind", "jpeg"], "kind"), (["--rate", "0"], "rate"),
+     (["--video", "x.avi"], "video")],
+)  # fmt: skip
+def test_servers_that_cannot_be_are_refused_in_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    monkeypatch.chdir(tmp_path)
+    fixed = ["serve", scene, "--at", "1976-02-07T10:00", "--size", "32x24", "--port", "0", "--preset", "report"]
+    monkeypatch.setattr(sys, "argv", ["sensorsim", *map(str, fixed), *words])
+    with pytest.raises(SystemExit) as left:
+        main()
+    assert left.value.code == 2
+    told = [line for line in capsys.readouterr().err.splitlines() if line.startswith("sensorsim:")]
+    assert len(told) == 1
+    assert said in told[0]

@@ -1,24 +1,32 @@
 """Vehicles: shapes that are closed, parts that warm as they should, and pictures that show them in their place."""
 
+import json
+import socket
+import time
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from pyproj import Transformer
 from small_world import town
 from test_trainer_pictures import SENSORS, VIEW, frame
 
 from sensorsim.errors import InputError
 from sensorsim.render import Renderer, look_at
+from sensorsim.scene import LocalFrame
 from sensorsim.trainer.appearance import thermal_state
+from sensorsim.trainer.dis_feed import DisFeed
 from sensorsim.trainer.dis_listener import HeardEntity
 from sensorsim.trainer.fleet import EMISSIVITY, METAL, Fleet, skin_wall
 from sensorsim.trainer.frame_request import EntityRequest
 from sensorsim.trainer.host_state import Component
+from sensorsim.trainer.local_place import LocalPlace
 from sensorsim.trainer.part_heat import COOLING, IDLE, WARMING, Doing, excess_after, steady_excess
 from sensorsim.trainer.scene_pictures import ScenePictures
 from sensorsim.trainer.things import ENGINE, FIRE, Thing, things_asked, things_heard
+from sensorsim.trainer.udp import Endpoint
 from sensorsim.trainer.vehicle_file import part_of, read_vehicle
 from sensorsim.trainer.vehicle_shape import PARTS, VehicleShape, box, cylinder, face_area
 from sensorsim.trainer.vehicles import built_in_vehicles
@@ -221,3 +229,22 @@ def test_model_files_that_are_none_are_refused(tmp_path: Path) -> None:
     for name in ("bad.glb", "a.fbx", "missing.obj"):
         with pytest.raises(InputError):
             read_vehicle(tmp_path / name)
+
+
+def test_vehicles_of_a_dis_exercise_are_heard_on_a_port() -> None:
+    vectors = json.loads((Path(__file__).parent / "data" / "dis_vectors.json").read_text())["packets"]
+    packet = next(one for one in vectors if one["kind"][:2] == [1, 1])
+    longitude, latitude, _ = Transformer.from_crs("EPSG:4978", "EPSG:4979", always_xy=True).transform(
+        *packet["location"]
+    )
+    place = LocalPlace(frame=LocalFrame(longitude=longitude, latitude=latitude), altitude=0.0)
+    with DisFeed(Endpoint(port=0), place) as feed, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        assert feed(0.0) == []
+        other.sendto(bytes.fromhex(packet["hex"]), ("127.0.0.1", feed.port))
+        other.sendto(b"nonsense", ("127.0.0.1", feed.port))
+        time.sleep(0.05)
+        (heard,) = feed(0.1)
+        assert heard.key[:3] == tuple(packet["identity"])
+        assert heard.model == "tank"
+        assert np.hypot(*heard.position[:2]) < 5.0
+        assert feed(60.0) == []

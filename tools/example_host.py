@@ -90,7 +90,9 @@ class Approach:
 
 
 def approach(scene: Scene) -> Approach:
-    station = scene.camera("hospital")
+    """The approach to the scene's camera of the hospital, else to its first."""
+    names = [camera.name for camera in scene.cameras]
+    station = scene.camera("hospital" if "hospital" in names else names[0])
     end, target = np.asarray(station.position(scene.frame)), np.asarray(station.target(scene.frame))
     return Approach(place=scene_place(scene), end=end, target=target)
 
@@ -179,13 +181,15 @@ def _picture(ring: RingReader, seen: int, number: int, patience: float = 2.0) ->
 
 
 @contextmanager
-def server(arguments: Sequence[str], link: socket.socket, ring: Path, rate: float) -> Iterator[tuple[int, int]]:
+def server(
+    scene: str, arguments: Sequence[str], link: socket.socket, ring: Path, rate: float
+) -> Iterator[tuple[int, int]]:
     """A `sensorsim serve` of our own: its port and process."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         probe.bind((LOOPBACK, 0))
         port = probe.getsockname()[1]
     own = ["--port", str(port), "--host-port", str(link.getsockname()[1]), "--ring", str(ring), "--rate", str(rate)]
-    child = subprocess.Popen([sys.executable, "-m", "sensorsim", "serve", "hospital", *own, *arguments])
+    child = subprocess.Popen([sys.executable, "-m", "sensorsim", "serve", scene, *own, *arguments])
     try:
         yield port, child.pid
     finally:
@@ -208,12 +212,13 @@ def main(words: Sequence[str] | None = None) -> dict[str, float | int | None]:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--rate", type=float, default=60.0, help="of the image generator [Hz]")
+    parser.add_argument("--scene", default="hospital")
     parser.add_argument("--port", type=int, default=0, help="of a running image generator; 0 starts one")
     parser.add_argument("--listen", type=int, default=0, help="port to hear a running image generator on")
     parser.add_argument("--ring", type=Path, help="ring of a running image generator")
     parser.add_argument("serve", nargs="*", help="options of `sensorsim serve`, after --")
     asked = parser.parse_args(words)
-    frames, way = round(asked.seconds * asked.rate), approach(load_scene("hospital", level="IIIB"))
+    frames, way = round(asked.seconds * asked.rate), approach(load_scene(asked.scene, level="IIIB"))
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link, tempfile.TemporaryDirectory() as folder:
         link.bind((LOOPBACK, asked.listen))
         link.settimeout(SILENCE)
@@ -222,7 +227,10 @@ def main(words: Sequence[str] | None = None) -> dict[str, float | int | None]:
                 found = fly(link, asked.port, ring, way, frames=frames, process=None)
         else:
             path = Path(folder) / "pictures"
-            with server(asked.serve, link, path, asked.rate) as (port, process), wait_for_ring(path, SILENCE) as ring:
+            with (
+                server(asked.scene, asked.serve, link, path, asked.rate) as (port, process),
+                wait_for_ring(path, SILENCE) as ring,
+            ):
                 found = fly(link, port, ring, way, frames=frames, process=process)
     figures = found.summary(asked.rate)
     print(json.dumps(figures, indent=1))

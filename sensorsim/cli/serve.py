@@ -2,8 +2,9 @@
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from datetime import date, datetime
 from pathlib import Path
 from typing import Annotated
@@ -35,6 +36,7 @@ from sensorsim.trainer import (
     Endpoint,
     ImageGenerator,
     ImageSettings,
+    LocalPlace,
     SessionReport,
     Surroundings,
     UdpEndpoint,
@@ -45,17 +47,15 @@ from sensorsim.trainer import (
 )
 from sensorsim.trainer.background_bake import BackgroundBake, Baked
 from sensorsim.trainer.bake_request import BakeRequest
-from sensorsim.trainer.delivery import Delivery
+from sensorsim.trainer.delivery import Outlets
+from sensorsim.trainer.dis_feed import DisFeed
 from sensorsim.trainer.host_weather import host_weather
-from sensorsim.trainer.ring import PixelKind, RingWriter
 from sensorsim.trainer.scene_pictures import ScenePictures
+from sensorsim.trainer.things import TYPES, Thing
+from sensorsim.trainer.vehicle_file import read_vehicle
+from sensorsim.trainer.vehicle_shape import VehicleShape
 
 ENDLESS = 10**9
-RING_PLANES = {
-    "display": ("display",),
-    "centikelvin": ("display", "apparent_temperature"),
-    "radiance": ("display", "radiance"),
-}
 
 
 def serve(
@@ -73,6 +73,14 @@ def serve(
     asynchronous: Annotated[bool, typer.Option("--asynchronous", help="Both run freely, by timestamps.")] = False,
     ring: Annotated[Path | None, typer.Option(help="File of a ring of pictures, for other programs.")] = None,
     ring_kind: Annotated[str, typer.Option(help="Pictures in it: display, centikelvin or radiance.")] = "display",
+    video: Annotated[
+        str | None, typer.Option(help="Video of the first view: udp://host:port, rtp://host:port or a .ts file.")
+    ] = None,
+    bag: Annotated[Path | None, typer.Option(help="MCAP file of the first view's temperatures.")] = None,
+    dis: Annotated[int | None, typer.Option(help="UDP port to hear a DIS exercise of the host on, often 3000.")] = None,
+    model: Annotated[
+        list[str] | None, typer.Option(help="Model in place of truck, tank or car: NAME=FILE (glTF, OBJ).")
+    ] = None,
     frames: Annotated[int, typer.Option(help="Frames to serve; 0 for no end.")] = 0,
     weather: Annotated[str | None, typer.Option(help="winter, summer, fall or a file; by date if left out.")] = None,
     preset: Preset = "standard",
@@ -93,17 +101,18 @@ def serve(
         say(f"bake of {done.request.day}: {done.reason or 'done, in use'}")
         ig.bake_refused(done.reason) if done.world is None else ig.bake_done(done.request)
 
+    outlets = Outlets(ring=ring, ring_kind=ring_kind, video=video, bag=bag)
     with ExitStack() as stack:
         stopped = stack.enter_context(_stopped_by_signals())
-        baker = _baker(place, series, settings)
         draw = ScenePictures(
-            world, sensors, size_of, bake=baker, on_bake=told, say=say, backend=backend, planes=RING_PLANES[ring_kind]
-        )
+            world, sensors, size_of, bake=_baker(place, series, settings), on_bake=told, say=say, backend=backend,
+            planes=outlets.planes, shapes=_models(model or []),
+            heard=_heard(stack, endpoint, dis, ig.around.place),
+        )  # fmt: skip
         stack.enter_context(draw).prepare(range(len(sensors)))
-        out = None if ring is None else stack.enter_context(RingWriter(ring, _kind(ring_kind), size_of))
         link = stack.enter_context(UdpEndpoint(endpoint))
+        deliver = outlets.open(stack, size_of, rate, ig.around.place, sensors[0].name, say)
         say(f"serving {place.name} {place.level} on {address}:{link.port} to {host}:{host_port}")
-        deliver = Delivery(ring=out, say=say)
         report = run_session(ig, link, draw, deliver, rate=rate, frames=frames or ENDLESS, stop=stopped.is_set)
     say(_summary(report, link))
 
@@ -147,9 +156,25 @@ def _weather_of(day: date, series: Weather) -> Weather:
         return series
 
 
-def _kind(text: str) -> PixelKind:
-    kind: PixelKind = text  # type: ignore[assignment]  # RingWriter refuses any other word
-    return kind
+def _models(words: list[str]) -> dict[str, VehicleShape]:
+    """Shapes by the names of vehicles that they stand for."""
+    shapes = {}
+    for word in words:
+        name, _, path = word.partition("=")
+        if name not in TYPES.values() or not path:
+            problem = f"no NAME=FILE with a name of {', '.join(TYPES.values())}"
+            raise InputError("command line", "--model", word, problem, "write for example tank=tank.glb")
+        shapes[name] = read_vehicle(Path(path))
+    return shapes
+
+
+def _heard(
+    stack: ExitStack, endpoint: Endpoint, port: int | None, place: LocalPlace
+) -> Callable[[float], Sequence[Thing]]:
+    """Vehicles of the host's DIS exercise, none where no port was given."""
+    if port is None:
+        return lambda _: ()
+    return stack.enter_context(DisFeed(replace(endpoint, port=port), place))
 
 
 @contextmanager

@@ -6,6 +6,7 @@ its time is in the metadata itself.
 
 import math
 from fractions import Fraction
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 from urllib.parse import urlsplit
@@ -133,6 +134,12 @@ def _muxer(target: str) -> tuple[str, str, dict[str, str]]:
         return f"{target}?pkt_size={DATAGRAM}", "mpegts", {}
     if kind == "rtp":
         return target, "rtp_mpegts", {}
-    if kind == "" and target.endswith(".ts"):
+    if kind == "" and target.endswith(".ts") and Path(target).parent.is_dir():
         return target, "mpegts", {}
-    raise InputError("video", "target", target, "unknown kind", "use udp://host:port, rtp://host:port or a .ts file")
+    raise InputError(
+        "video",
+        "target",
+        target,
+        "no stream",
+        "use udp://host:port, rtp://host:port or a .ts file in a folder that is there",
+    )
