@@ -12,7 +12,7 @@ from sensorsim.environment import Environment, build_environment, longest_lead_i
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType, load_catalogue
 from sensorsim.tables import BakeSettings, bake_tables, orientation_set
-from sensorsim.tables.history import wall_history
+from sensorsim.tables.history import solve_histories, wall_history
 from sensorsim.thermal import expose, ground_temperature, surface_boundary
 from sensorsim.thermal.lead_in import LEAST_STEPS, LeadIn, lead_in_of, time_constant
 
@@ -119,3 +119,24 @@ def test_history_that_a_file_holds_is_counted_in_whole_days() -> None:
 def test_lead_ins_that_cannot_be_are_refused(days: float) -> None:
     with pytest.raises(InputError, match="lead_in_days"):
         BakeSettings(lead_in_days=days)
+
+
+def test_long_steps_of_the_lead_in_cost_hundredths_of_a_kelvin_and_none_is_the_march_itself() -> None:
+    """Masonry remembers the days before; a sheet of metal only the short steps."""
+    catalogue, weather = load_catalogue(), read_weather("winter")
+    day = date(1976, 2, 7)
+    environment = build_environment(weather, image_day=day, lead_in_days=3.0, step=300.0)
+    normal = orientation_set("report26").normal
+    exposure = expose(environment, normal, environment.air_temperature)
+    record = environment.image_window.start + np.arange(0, 289, 12)
+    for code, bound in ((20, 0.03), (10, 1e-4)):
+        wall = catalogue.wall_type(code, "heated")
+        solved = {
+            stride: solve_histories(
+                environment, exposure, wall, np.array([0.1, 0.6]), record,
+                settings=BakeSettings(lead_in_stride=stride, lead_in_days=3.0),
+            )
+            for stride in (1, 3)
+        }  # fmt: skip
+        miss = np.abs(solved[3] - solved[1]).max()
+        assert 0.0 < miss < bound

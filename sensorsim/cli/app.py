@@ -15,6 +15,7 @@ from sensorsim.cli.serve import serve
 from sensorsim.cli.study_accuracy import accuracy
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
+from sensorsim.cli.view import view
 from sensorsim.cli.wall import wall
 from sensorsim.errors import InputError, SensorsimError
 
@@ -26,7 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
-for command in (render, capture, serve, gallery, diff, scene, wall, info):
+for command in (render, view, serve, capture, gallery, diff, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)

@@ -83,6 +83,10 @@ FACTORS: Mapping[str, Factor] = {
         title="lead-in before the image day [d]",
         values=(("by wall", {"lead_in_days": None}), *_values("lead_in_days", 0.0, 1.0, 2.0, 4.0)),
     ),
+    "lead_in_stride": Factor(
+        title="steps that are joined to one in the lead-in",
+        values=_values("lead_in_stride", 1, 3, 6, 12),
+    ),
     "precision": Factor(
         title="precision of the tables",
         values=_values("precision", "float32", "float16"),

@@ -102,7 +102,8 @@ def _imbalance() -> float:
     )  # fmt: skip
     cells = history.exterior if history.nodes is None else history.nodes[:, 0]
     face, difference = history.exterior, outside.air[1:, None, None] - history.exterior
-    film = np.cbrt(outside.film[1:, :, None] ** 3 + outside.free[None, :, None] * np.abs(difference))
+    free = np.where(difference < 0.0, outside.free[None, :, None], outside.free_colder[None, :, None])
+    film = np.cbrt(outside.film[1:, :, None] ** 3 + free * np.abs(difference))
     sun = absorptances * outside.irradiance[1:, :, None]
     glow = outside.emissivity * (outside.longwave[1:, :, None] - SIGMA * face**4)
     conducted = history.grid.conductance[0] * (face - cells)

@@ -63,8 +63,9 @@ def fine_environment(weather: Weather, day: date) -> Environment:
 def fine_settings(settings: BakeSettings) -> BakeSettings:
     """Settings of the full solve that a bake with `settings` stands for: its sky and film, the rest fine."""
     return replace(
-        BakeSettings(), sky=settings.sky, convection=settings.convection, step=FINE_STEP, cell_size=FINE_CELLS
-    )
+        BakeSettings(), sky=settings.sky, convection=settings.convection, step=FINE_STEP, cell_size=FINE_CELLS,
+        lead_in_stride=1,
+    )  # fmt: skip
 
 
 def solve_surfaces(

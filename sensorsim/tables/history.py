@@ -27,6 +27,7 @@ def wall_history(
     *,
     lead_in: LeadIn,
     cell_size: float = 1.0,
+    stride: int = 1,
 ) -> FloatArray:
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
     inside = inside_of(environment, wall)
@@ -36,7 +37,7 @@ def wall_history(
     history = march_paths(
         wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
         step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
-        repeated=lead_in.repeated, cell_size=cell_size,
+        repeated=lead_in.repeated, cell_size=cell_size, stride=stride,
     )  # fmt: skip
     if water and wall.cover is not None:
         return cool_skin(history.exterior, outside, record, wall.cover)
@@ -73,8 +74,9 @@ def solve_histories(
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection)
     lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
     return wall_history(
-        environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size
-    )
+        environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size,
+        stride=settings.lead_in_stride,
+    )  # fmt: skip
 
 
 def surface_histories(

@@ -51,41 +51,47 @@ class BakeSettings:
     slice_interval: float = 300.0  # [s] between the times that are kept
     precision: str = "float32"  # of the numbers that are kept, one of PRECISIONS
     lead_in_days: float | None = None  # before the image day; None: by the walls' own time constants, see `lead_in`
+    lead_in_stride: int = 3  # steps that are joined to one in the lead-in
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
     exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
 
     def __post_init__(self) -> None:
         """Refuse what cannot be solved or fitted."""
-        for entry, broken, remedy in (
-            ("orientations", self.orientations not in LAYOUTS, f"use one of {', '.join(LAYOUTS)}"),
-            ("interpolation", self.interpolation not in INTERPOLATIONS, f"use one of {', '.join(INTERPOLATIONS)}"),
+        for entry, broken, remedy in (*self._choices(), *self._numbers()):
+            if broken:
+                raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
+
+    def _choices(self) -> tuple[tuple[str, bool, str], ...]:
+        """Entries that are one of a few words: whether they are broken, and the remedy."""
+        words = {
+            "orientations": LAYOUTS, "interpolation": INTERPOLATIONS, "precision": PRECISIONS, "sky": SKIES,
+            "convection": tuple(CORRELATIONS),
+        }  # fmt: skip
+        return tuple(
+            (entry, getattr(self, entry) not in known, f"use one of {', '.join(known)}")
+            for entry, known in words.items()
+        )
+
+    def _numbers(self) -> tuple[tuple[str, bool, str], ...]:
+        """Entries that are numbers: whether they are broken, and the remedy."""
+        degrees, days, stride = range(len(self.reflectances)), self.lead_in_days, self.lead_in_stride
+        sliced = _is_whole(self.slice_interval, self.step) and _is_whole(SECONDS_PER_DAY, self.slice_interval)
+        return (
             ("step", not 0 < self.step <= 3600, "use a step above 0 and up to 3600 s"),
             ("lobes", not self._lobes_fit(), "use 0, or 60 to 21600 s that divide the day"),
             ("cell_size", not 0.05 <= self.cell_size <= 5.0, "use a size from 0.05 to 5"),
-            ("precision", self.precision not in PRECISIONS, f"use one of {', '.join(PRECISIONS)}"),
             ("reflectances", _unusable(self.reflectances), "give different values between 0 and 1"),
             (
                 "degree",
-                not (isinstance(self.degree, int) and 0 <= self.degree < len(self.reflectances)),
+                not (isinstance(self.degree, int) and self.degree in degrees),
                 "use a whole number from 0 up to the number of reflectances less one",
             ),
-            (
-                "slice_interval",
-                not (_is_whole(self.slice_interval, self.step) and _is_whole(SECONDS_PER_DAY, self.slice_interval)),
-                "use a multiple of the step that divides the day",
-            ),
-            ("sky", self.sky not in SKIES, f"use one of {', '.join(SKIES)}"),
-            ("convection", self.convection not in CORRELATIONS, f"use one of {', '.join(CORRELATIONS)}"),
+            ("slice_interval", not sliced, "use a multiple of the step that divides the day"),
             ("exchange", not isinstance(self.exchange, bool), "use True or False"),
-            (
-                "lead_in_days",
-                self.lead_in_days is not None and not 0 <= self.lead_in_days <= 365,
-                "use 0 to 365 days, or None",
-            ),
-        ):
-            if broken:
-                raise InputError("bake settings", entry, getattr(self, entry), "cannot be used", remedy)
+            ("lead_in_days", days is not None and not 0 <= days <= 365, "use 0 to 365 days, or None"),
+            ("lead_in_stride", type(stride) is not int or not 1 <= stride <= 24, "use a whole number from 1 to 24"),
+        )
 
     def _lobes_fit(self) -> bool:
         return self.lobes == 0 or (60.0 <= self.lobes <= 21600.0 and _is_whole(SECONDS_PER_DAY, self.lobes))
@@ -116,7 +122,7 @@ PRESETS = {
                            slice_interval=900.0, sky="quadrants"),
     "standard": BakeSettings(),
     "reference": BakeSettings(orientations="icosphere642", interpolation="barycentric", lobes=300.0, reflectances=FIVE,
-                              degree=4, step=60.0),
+                              degree=4, step=60.0, lead_in_stride=1),
 }  # fmt: skip
 
 

@@ -20,12 +20,13 @@ def surface_temperature(
     *,
     visibility: FloatArray | None = None,
 ) -> FloatArray:
-    """Surface temperature (m,) [K] for unit normals (m, 3), rows of the wall types (m,) and reflectances (m,).
+    """Surface temperature (m,) [K] for normals (m, 3) of any length, rows of the wall types (m,) and reflectances (m,).
 
     `visibility` (m, l) [-] is how much of each lobe of that time the surfaces saw; all of it where not given.
     """
     place = tables.orientations.locate(normal)
-    return shade(tables.at(time_of_day), place, normal, wall_type, reflectance, visibility=visibility)
+    unit = normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    return shade(tables.at(time_of_day), place, unit, wall_type, reflectance, visibility=visibility)
 
 
 def shade(
@@ -37,7 +38,7 @@ def shade(
     *,
     visibility: FloatArray | None = None,
 ) -> FloatArray:
-    """The same (m,) [K] at a moment for normals that have their `place`, (m, 3) orientations and weights, already."""
+    """The same (m,) [K] at a moment for unit normals whose `place`, (m, 3) orientations and weights, is known."""
     corner, weight = place
     coefficient = np.einsum("mk,mkp->mp", weight, moment.coefficients[wall_type[:, None], corner])
     facing = np.maximum(normal @ moment.direction.T, 0.0)

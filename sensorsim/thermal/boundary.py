@@ -59,19 +59,21 @@ def per_exterior_area(inside: Inside, area: float) -> Inside:
     return inside._replace(film=area * inside.film, free=area**3 * inside.free, emissivity=area * inside.emissivity)
 
 
-def outside_from(outside: Outside, first: int) -> Outside:
-    """What acts on the exterior face from a sample on."""
-    series = {name: getattr(outside, name)[first:] for name in ("irradiance", "longwave", "film", "air")}
+def outside_from(outside: Outside, first: int, stride: int = 1) -> Outside:
+    """What acts on the exterior face from a sample on, of every `stride`-th one."""
+    chosen = slice(first, None, stride)
+    series = {name: getattr(outside, name)[chosen] for name in ("irradiance", "longwave", "film", "air")}
     if outside.vapour.size:
-        series["vapour"] = outside.vapour[first:]
+        series["vapour"] = outside.vapour[chosen]
     if len(outside.latent) == len(outside.air):
-        series["latent"] = outside.latent[first:]
+        series["latent"] = outside.latent[chosen]
     return outside._replace(**series)
 
 
-def inside_from(inside: Inside, first: int) -> Inside:
-    """What acts on the interior face from a sample on."""
-    return inside._replace(air=inside.air[first:], radiant=inside.radiant[first:], film=inside.film[first:])
+def inside_from(inside: Inside, first: int, stride: int = 1) -> Inside:
+    """What acts on the interior face from a sample on, of every `stride`-th one."""
+    chosen = slice(first, None, stride)
+    return inside._replace(air=inside.air[chosen], radiant=inside.radiant[chosen], film=inside.film[chosen])
 
 
 class Columns(NamedTuple):

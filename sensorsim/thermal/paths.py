@@ -12,10 +12,12 @@ from typing import Protocol
 
 import numpy as np
 
-from sensorsim.thermal.boundary import Inside, Outside
+from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
 from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.march import History, march
 from sensorsim.thermal.periodic_start import settled_cells
+
+SHORT_STEPS = 24  # before the first sample recorded, whatever the lead-in's
 
 
 class PathLike(Protocol):
@@ -91,34 +93,43 @@ def march_paths(
     melting_depth: float = 0.0,
     cell_size: float = 1.0,
     repeated: bool = False,
+    stride: int = 1,
 ) -> History:
     """March all paths of a construction or wall type, of any shape, as `march` does layers, and join them by area.
 
     With a temperature `start` [K] all cells of all paths begin there, `repeated` as the first day leaves them when it
-    is repeated; `melting_depth` [m] is that of `march`.
-    Grid and node temperatures are those of the widest path.
+    is repeated; `melting_depth` [m] is that of `march`. Before the first sample recorded, all but the last SHORT_STEPS
+    are joined to steps `stride` times as long: heat that came hours ago has spread. Snow keeps its short steps.
+    Grid and node temperatures are those of the widest path; heats begin where steps are short.
     """
     paths = wall_paths(wall, step, cell_size=cell_size)
-    histories = []
+    histories, long = [], 1 if melting_depth > 0.0 else stride
+    skipped = max(int(record[0]) - SHORT_STEPS, 0) // long * long if long > 1 else 0
+    far, near = (outside_from(outside, 0, long), inside_from(inside, 0, long)), inside_from(inside, skipped)
     for place, path in enumerate(paths):
         cells = None if start is None else np.full(path.grid.capacity.size, start)
         if repeated:
-            cells = settled_cells(path.layers, path.grid, outside, inside, absorptances, step)
-        histories.append(
-            march(
-                path.layers,
-                outside,
-                inside,
-                absorptances,
-                step=step,
-                record=record,
-                keep_nodes=keep_nodes and place == 0,
-                grid=path.grid,
-                start=cells,
-                melting_depth=melting_depth,
-            )
-        )
+            cells = settled_cells(path.layers, path.grid, *far, absorptances, long * step)
+        if skipped:
+            cells = _cells_at(path, *far, absorptances, step=long * step, sample=skipped // long, start=cells)
+        history = march(
+            path.layers, outside_from(outside, skipped), near, absorptances, step=step, record=record - skipped,
+            keep_nodes=keep_nodes and place == 0, grid=path.grid, start=cells, melting_depth=melting_depth,
+        )  # fmt: skip
+        histories.append(history)
     return histories[0] if len(histories) == 1 else _join([path.fraction for path in paths], histories)
+
+
+def _cells_at(
+    path: GridPath, outside: Outside, inside: Inside, absorptances: FloatArray, *, step: float, sample: int,
+    start: FloatArray | None,
+) -> FloatArray:  # fmt: skip
+    """Cell temperatures (n, m) [K] of a path at a sample."""
+    history = march(
+        path.layers, outside, inside, absorptances, step=step, record=np.array([sample]), keep_nodes=True,
+        grid=path.grid, start=start,
+    )  # fmt: skip
+    return np.asarray(history.nodes).reshape(path.grid.capacity.size, -1)
 
 
 def _join(fractions: Sequence[float], histories: Sequence[History]) -> History:
