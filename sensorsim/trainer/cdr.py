@@ -1,4 +1,4 @@
-"""Messages of ROS 2 as bytes: CDR, little-endian, each value at a multiple of its own size [CDR]."""
+"""Messages of ROS 2 as bytes: CDR, little-endian, each value at a multiple of its own size [OMGCDR2021]."""
 
 import struct
 

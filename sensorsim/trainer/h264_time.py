@@ -1,5 +1,5 @@
 """The time of a picture inside its H.264 access unit, as MISB ST 0604 has it: an unregistered SEI message before the
-first slice [ST0604]."""
+first slice [MISB0604]."""
 
 IDENTIFIER = b"MISPmicrosectime"
 LOCKED = 0x1F  # status: to no discontinuity, reserved bits set

@@ -1,6 +1,6 @@
 """Motion imagery metadata as MISB ST 0601 has it: one local set for each picture.
 
-Key, length and items of tag, length and value, big-endian, the checksum last [ST0601]. Values are mapped to integers
+Key, length and items of tag, length and value, big-endian, the checksum last [MISB0601]. Values are mapped to integers
 linearly over each item's range; what lies outside of it is the item's `out of range` where it has one, else refused.
 """
 

@@ -12,7 +12,8 @@ from sensorsim.trainer.rotations import Angles
 TYPES = {1: "truck", 2: "tank", 3: "car"}
 ENGINE, FIRE = 1, 2
 LAND = (1, 1)  # platform, land: the first two numbers of an entity's kind in DIS
-CATEGORIES = {1: "tank", 2: "tank", 3: "tank", 4: "tank", 5: "tank", 6: "car"}  # of land platforms; others are trucks
+# Categories of land platforms [SISO010]; others are trucks
+CATEGORIES = {1: "tank", 2: "tank", 3: "tank", 4: "tank", 5: "tank", 6: "car"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,6 @@
 """Vehicles from glTF and OBJ files: what a geometry or node is called says which part it is.
 
-Axes as glTF has them: y up, z forward, metres [glTF2]; OBJ files are taken to have the same.
+Axes as glTF has them: y up, z forward, metres [GLTF2021]; OBJ files are taken to have the same.
 """
 
 from pathlib import Path
