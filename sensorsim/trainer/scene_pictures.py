@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.errors import SensorsimError
-from sensorsim.render import Illumination, Renderer, World
+from sensorsim.render import Camera, Illumination, Renderer, World
 from sensorsim.render.solids import Solids
 from sensorsim.sensor import Sensor
 from sensorsim.trainer.background_bake import BackgroundBake, Baked
@@ -92,9 +92,11 @@ class ScenePictures:
         self._eyes.clear()
 
     def prepare(self, views: Sequence[int]) -> None:
-        """Makes the renderers of views that are about to be drawn, each with the sensor of its number."""
+        """Makes the renderers of views that are about to be drawn, each with the sensor of its number, and tries them."""
+        camera = Camera(position=np.array([0.0, 0.0, 100.0]), yaw=0.0, pitch=-45.0, horizontal_field_of_view=40.0)
         for view in views:
-            self._eye(view, view if view < len(self.sensors) else 0, frozenset(views))
+            eye = self._eye(view, view if view < len(self.sensors) else 0, frozenset(views))
+            eye.renderer.render(camera, 0.0, planes=self._planes)  # compiles what the first frame needs
 
     def _take_world(self, request: FrameRequest) -> None:
         if self._bake is None:
