@@ -8,6 +8,7 @@ import pytest
 from small_world import town
 
 from sensorsim.errors import InputError
+from sensorsim.frames import take_frame
 from sensorsim.render import Camera, Renderer, look_at
 from sensorsim.render.quick_frame import horizon_rows
 from sensorsim.sensor import DisplaySettings, load_sensor
@@ -167,3 +168,12 @@ def test_rows_at_the_horizon_are_told_apart_safely(pitch: float, roll: float) ->
     assert np.all(rise[high:] > 0.0)
     if roll == 0.0 and abs(pitch) < 80.0:
         assert high - low <= 4
+
+
+def test_frame_of_chosen_planes_has_them_and_its_settings(renderers: dict[str, Renderer]) -> None:
+    whole = take_frame(renderers["flir"], VIEWS["down"], NOON)
+    for wanted in (["display"], ["display", "range"]):
+        frame = take_frame(renderers["flir"], VIEWS["down"], NOON, planes=wanted)
+        assert set(frame.planes) == set(wanted)
+        assert frame.settings["request_sha256"] == whole.settings["request_sha256"]
+        np.testing.assert_array_equal(frame.plane("display").data, whole.plane("display").data)

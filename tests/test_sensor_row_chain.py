@@ -13,7 +13,6 @@ from sensorsim.sensor import (
     blur_kernel,
     column_places,
     display_code,
-    sampled_surfaces,
     focal_plane,
     halo_radius,
     kept_per_block,
@@ -21,6 +20,7 @@ from sensorsim.sensor import (
     read_out,
     remember,
     renewed_share,
+    sampled_surfaces,
     sensitivity,
 )
 from sensorsim.sensor.exposure import ENOUGH, exposure_for

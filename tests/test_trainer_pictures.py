@@ -98,6 +98,14 @@ def test_views_of_one_head_show_each_its_sensor(pictures: ScenePictures) -> None
     np.testing.assert_array_equal(chosen[0]["radiance"], both[1]["radiance"])
 
 
+def test_a_plane_that_only_one_sensor_of_a_head_has_keeps_the_other_from_nothing() -> None:
+    with ScenePictures(town(), SENSORS, SIZE, planes=("display", "apparent_temperature")) as source:
+        source.prepare(range(2))
+        both = source(frame(VIEW, replace(VIEW, number=1, view_type=1)))
+    assert [set(both[view]) for view in (0, 1)] == [{"display", "apparent_temperature"}, {"display"}]
+    assert both[1]["display"].max() > 0
+
+
 def test_the_first_sensor_that_is_on_is_shown_and_without_one_the_view_is_black(pictures: ScenePictures) -> None:
     off, on = SensorState(view=0, sensor=0, on=False), SensorState(view=0, sensor=1)
     shown = pictures(frame(replace(VIEW, sensors=(off, on))))[0]

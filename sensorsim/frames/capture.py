@@ -1,6 +1,7 @@
 """One look of a renderer as a frame with everything that made it."""
 
 import hashlib
+from collections.abc import Collection
 from dataclasses import fields
 from datetime import datetime
 
@@ -25,14 +26,17 @@ def take_frame(
     display: DisplaySettings | None = None,
     frame: int = 0,
     fit_error: bool = False,
+    planes: Collection[str] | None = None,
 ) -> Frame:
     """Frame at a local standard time (or one with an offset, or seconds after midnight) of the world's image day.
 
     frame: its number in a sequence, which decides its noise. With `fit_error` it has a plane of that name, for which
-    all surfaces are solved in full: that takes seconds.
+    all surfaces are solved in full: that takes seconds. planes: those that are computed, all where it is left out;
+    display alone takes a fraction of the time.
     """
     time_of_day = float(at) if isinstance(at, (int, float)) else seconds_after_midnight(renderer, at)
-    picture = renderer.render(camera, time_of_day, display=display, frame=frame)
+    wanted = None if planes is None else {*planes, *(("surface_id",) if fit_error else ())} - {"fit_error"}
+    picture = renderer.render(camera, time_of_day, display=display, frame=frame, planes=wanted)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
     settings: dict[str, JSON] = {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
     if not fit_error:

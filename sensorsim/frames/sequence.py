@@ -65,6 +65,7 @@ def draw_block(renderer: Renderer, shots: Sequence[Shot], numbers: range, option
         frame = take_frame(
             renderer, shot.camera, shot.time_of_day, display=options.display, frame=shot.number,
             fit_error="fit_error" in options.planes,
+            planes={"display", *options.planes} if options.suffix == ".png" else None,
         )  # fmt: skip
         if shot.number in missing:
             path = frame_path(options, renderer.sensor, shot.number)

@@ -42,6 +42,8 @@ class MomentTables:
             **shade_texels(world.tables, 0.0),
         }
         self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
+        lobes = world.tables.lobes
+        self.most = 0 if lobes is None else self.textures["lobe_table"].width - 1  # of them at any time
         self.block = ctx.buffer(reserve=ILLUMINATION.dtype.itemsize)
         self.generated = {
             "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
@@ -72,7 +74,7 @@ class MomentTables:
         if offsets is not None:
             set_offsets(self.records, offsets.at(time_of_day, self.world.scene.surfaces.area.size))
             self._update("surface_table", self.records)
-        for name, texels in shade_texels(self.world.tables, time_of_day).items():
+        for name, texels in shade_texels(self.world.tables, time_of_day, most=self.most).items():
             self._update(name, texels)
 
     def _set_light(self, illumination: Illumination) -> None:

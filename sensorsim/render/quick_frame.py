@@ -2,7 +2,7 @@
 
 What does not vary within a surface is computed once for each moment, a texel a surface (scene/settled.frag); a pixel
 adds the air before it, and what its surface mirrors where that has a gloss. Of two surfaces behind each other only the
-nearer one is shaded wherever it was drawn first, so high features are drawn first, the ground next and the sky last.
+nearer one is shaded wherever it was drawn first, so near tiles and high features are drawn first and the sky last.
 """
 
 import math
@@ -18,6 +18,7 @@ from sensorsim.render.camera import Camera
 from sensorsim.render.mirror import gloss_records
 from sensorsim.render.passes import TEXTURE_UNITS, Pass, background_pass, screen_pass
 from sensorsim.render.surface_table import SURFACES_PER_ROW
+from sensorsim.render.tiles import build_tiles, visible_tiles
 from sensorsim.render.world import World
 
 MIRRORING = ("surface_table", "band_radiance_table", "rise_table", "mirror_table")
@@ -50,10 +51,11 @@ class QuickFrame:
         self.backgrounds = [
             background_pass(ctx, generated, emissive=emissive, marked=True, horizon=horizon) for horizon in range(3)
         ]
-        triangles, self.matt = _drawing_order(world, emissive=emissive)
+        self.tiles = build_tiles(world.scene.mesh, *_kinds_and_heights(world, emissive=emissive))
         mesh = world.scene.mesh
-        buffers = mesh_buffers(ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, triangles)
-        self.triangles = len(triangles)
+        buffers = mesh_buffers(
+            ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
+        )
         self.passes = [
             Pass(
                 ctx, "scene/quick.vert", "scene/quick.frag", blocks=(VIEW_FRAME, ILLUMINATION, AIR),
@@ -72,17 +74,29 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
+<<<<<<< HEAD
     def draw(self, camera: Camera, draw_solids: Callable[[], None]) -> NDArray[np.float32]:
         """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen."""
+=======
+    def draw(self, camera: Camera) -> None:
+        """Draw what the camera sees, into the target."""
+>>>>>>> main
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
         self.target.clear()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self.ctx.depth_func = "<"
+<<<<<<< HEAD
         for surfaces, first, last in zip(self.passes, (0, self.matt), (self.matt, self.triangles), strict=False):
             if last > first:
                 surfaces.vertices.render(first=3 * first, vertices=3 * (last - first))
         draw_solids()
+=======
+        tiles = self.tiles
+        for tile in visible_tiles(tiles, camera, self.target.size).tolist():
+            first, last = 3 * int(tiles.edge[tile]), 3 * int(tiles.edge[tile + 1])
+            self.passes[tiles.kind[tile]].vertices.render(first=first, vertices=last - first)
+>>>>>>> main
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
         low, high = horizon_rows(camera, self.target.size)
@@ -92,6 +106,12 @@ class QuickFrame:
                 self.backgrounds[horizon].draw()
         self.target.framebuffer.scissor = (0, 0, *self.target.size)
         self.ctx.depth_func = "<"
+
+    def read(self) -> NDArray[np.float32]:
+        """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen.
+
+        The array is the same each time.
+        """
         self.target.texture("radiance").read_into(self.stored)
         return self.stored
 
@@ -110,15 +130,13 @@ def horizon_rows(camera: Camera, size: tuple[int, int]) -> tuple[int, int]:
     return min(max(low, 0), size[1]), min(max(high, 0), size[1])
 
 
-def _drawing_order(world: World, *, emissive: bool) -> tuple[NDArray[np.int32], int]:
-    """Triangles (t, 3) with the matt ones first and high features first among each, and how many are matt."""
+def _kinds_and_heights(world: World, *, emissive: bool) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Of each triangle: 1 where its surface has a gloss that shows, and the height of its feature's top [m]."""
     mesh, assignment = world.scene.mesh, world.assignment
     surface = mesh.surface[mesh.triangle[:, 0]]
     codes = np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)[assignment.wall_type]
     gloss = gloss_records(codes, assignment.emissivity)[:, 0] >= 0.0
-    mirrors = gloss[surface] & emissive
     feature = world.scene.surfaces.feature
     top = np.full(int(feature.max()) + 1, -math.inf)
     np.maximum.at(top, feature[mesh.surface], mesh.position[:, 2])
-    order = np.lexsort((-top[feature[surface]], mirrors))
-    return np.ascontiguousarray(mesh.triangle[order]), int(np.count_nonzero(~mirrors))
+    return (gloss[surface] & emissive).astype(np.int64), top[feature[surface]]

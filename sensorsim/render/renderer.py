@@ -1,6 +1,6 @@
 """One frame as an ordered list of passes: surfaces, background, read-back, window, display."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -69,6 +69,7 @@ class Renderer:
         self.size = sensor.size if size is None else size
         self.samples, self.blur_energy = samples, blur_energy
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
+        self.watch: Callable[[str], None] = _nothing  # told of each stage of a frame for display alone, once it is over
         self._quick: QuickFrame | None = None
         self._things: Solids | None = None
         self._solids: SolidPass | None = None
@@ -117,6 +118,7 @@ class Renderer:
             self._things = solids
             self._moment.set(time_of_day, illumination)
             self._set_view(camera, illumination)
+            self.watch("moment")
             chosen = self.sensor.display if display is None else display
             draw = self._show_quickly if wanted == {"display"} else self._show_all
             found, settings = draw(camera, chosen, frame, wanted)
@@ -211,9 +213,21 @@ class Renderer:
             self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
         self._quick.settle(self._moment.number)
         field = float(np.radians(camera.horizontal_field_of_view))
+<<<<<<< HEAD
         signal = self._rows.run(self._quick.draw(camera, self._draw_solids), field, frame)
+=======
+        self._quick.draw(camera)
+        self.watch("draw")
+        stored = self._quick.read()
+        self.watch("read-back")
+        signal = self._rows.run(stored, field, frame)
+        self.watch("sensor")
+>>>>>>> main
         settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
-        return {"display": self._rows.show(settings)}, settings
+        self.watch("window")
+        codes = self._rows.show(settings)
+        self.watch("display")
+        return {"display": codes}, settings
 
     def _show_all(
         self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str]
@@ -296,3 +310,7 @@ class Renderer:
 def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
     """Radiances that an automatic gain goes by, of what the detector reports where there is one."""
     return sampled_surfaces(planes.get("signal", planes["radiance"]), planes["surface_id"] >= 0)
+
+
+def _nothing(_stage: str) -> None:
+    """Nobody watches."""

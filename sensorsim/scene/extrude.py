@@ -27,7 +27,8 @@ class Facet:
 def ring_area(ring: FloatArray) -> float:
     """Signed area [m2] of a closed outline of shape (n, 2), positive where counter-clockwise."""
     x, y = (ring - ring[0]).T  # about its own corner, so that large coordinates cost no digits
-    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    around = np.dot(x[:-1], y[1:]) - np.dot(y[:-1], x[1:])  # the side back to the start adds nothing there
+    return 0.5 * float(around)
 
 
 def extrude(part: Part, frame: LocalFrame) -> list[Facet]:
@@ -53,7 +54,7 @@ def _flat(rings: list[FloatArray], height: float, role: Role) -> Facet:
 
 def _walls(ring: FloatArray, base: float, top: float) -> Iterator[Facet]:
     """One wall per side; the outside is to the right of the outline, for holes too."""
-    for here, after in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+    for here, after in zip(ring, np.concatenate([ring[1:], ring[:1]]), strict=True):
         along = after - here
         length = float(np.hypot(along[0], along[1]))
         corners = np.array([[*here, base], [*after, base], [*after, top], [*here, top]])

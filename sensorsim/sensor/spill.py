@@ -50,7 +50,7 @@ def _sums(values: NDArray[Any], extent: int) -> NDArray[Any]:
     if extent == 1:
         return values
     rows, columns = values.shape
-    padded = np.pad(values, ((0, 0), (0, -columns % extent)))
+    padded = values if columns % extent == 0 else np.pad(values, ((0, 0), (0, -columns % extent)))
     return np.asarray(padded.reshape(rows, -1, extent).sum(axis=2, dtype=np.float64))
 
 

@@ -30,12 +30,15 @@ def coefficient_glsl(powers: int) -> str:
     )
 
 
-def shade_texels(tables: ShadeTables, time_of_day: float) -> dict[str, NDArray[np.float32]]:
-    """Texels of all that the shade of a time [s] is made from, by the name of the sampler."""
+def shade_texels(tables: ShadeTables, time_of_day: float, *, most: int | None = None) -> dict[str, NDArray[np.float32]]:
+    """Texels of all that the shade of a time [s] is made from, by the name of the sampler.
+
+    most: lobes that the texture has room for; counted over the day where it is left out, which takes a while.
+    """
     moment = tables.at(time_of_day)
     texels = {"coefficient_table": coefficient_texels(moment.coefficients)}
     if tables.lobes is not None:
-        texels["lobe_table"] = lobe_texels(moment, tables.lobes.most)
+        texels["lobe_table"] = lobe_texels(moment, tables.lobes.most if most is None else most)
     return texels
 
 

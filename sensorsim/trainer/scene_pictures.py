@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.errors import SensorsimError
+from sensorsim.frames import plane_names
 from sensorsim.render import Camera, Illumination, Renderer, World
 from sensorsim.render.solids import Solids
 from sensorsim.sensor import Sensor
@@ -92,11 +93,11 @@ class ScenePictures:
         self._eyes.clear()
 
     def prepare(self, views: Sequence[int]) -> None:
-        """Makes the renderers of views that are about to be drawn, each with the sensor of its number, and tries them."""
+        """Makes and tries the renderers of views that are about to be drawn, each with the sensor of its number."""
         camera = Camera(position=np.array([0.0, 0.0, 100.0]), yaw=0.0, pitch=-45.0, horizontal_field_of_view=40.0)
         for view in views:
             eye = self._eye(view, view if view < len(self.sensors) else 0, frozenset(views))
-            eye.renderer.render(camera, 0.0, planes=self._planes)  # compiles what the first frame needs
+            eye.renderer.render(camera, 0.0, planes=self._wanted(eye))  # compiles what the first frame needs
 
     def _take_world(self, request: FrameRequest) -> None:
         if self._bake is None:
@@ -134,7 +135,14 @@ class ScenePictures:
         if eye.around is None or eye.made_of != made_of:
             eye.around = live_surroundings(eye.renderer, time, request, view.visibility)
             eye.made_of = made_of
-        return look(eye.renderer, camera, time, eye.around, control, request.frame, planes=self._planes, solids=solids)
+        return look(
+            eye.renderer, camera, time, eye.around, control, request.frame, planes=self._wanted(eye), solids=solids
+        )
+
+    def _wanted(self, eye: _Eye) -> tuple[str, ...] | None:
+        """Planes asked for, as far as the sensor has them."""
+        there = plane_names(eye.renderer.sensor)
+        return None if self._planes is None else tuple(name for name in self._planes if name in there)
 
     def _choice(self, view: ViewRequest) -> tuple[SensorState, int]:
         """The first sensor of a view that is on, and which of ours it is; without a word on any, by the view's type."""
