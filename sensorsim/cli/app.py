@@ -28,11 +28,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
-<<<<<<< HEAD
-for command in (render, view, serve, capture, gallery, diff, scene, wall, info):
-=======
-for command in (render, view, capture, bench, gallery, diff, scene, wall, info):
->>>>>>> main
+for command in (render, view, serve, capture, bench, gallery, diff, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)

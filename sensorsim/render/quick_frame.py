@@ -74,29 +74,18 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
-<<<<<<< HEAD
-    def draw(self, camera: Camera, draw_solids: Callable[[], None]) -> NDArray[np.float32]:
-        """Radiance (height, width) [W m-2 sr-1] from the lowest row up, its sign set where no surface is seen."""
-=======
-    def draw(self, camera: Camera) -> None:
-        """Draw what the camera sees, into the target."""
->>>>>>> main
+    def draw(self, camera: Camera, draw_solids: Callable[[], None]) -> None:
+        """Draw what the camera sees, into the target; `draw_solids` draws what stands among the surfaces."""
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
         self.target.clear()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self.ctx.depth_func = "<"
-<<<<<<< HEAD
-        for surfaces, first, last in zip(self.passes, (0, self.matt), (self.matt, self.triangles), strict=False):
-            if last > first:
-                surfaces.vertices.render(first=3 * first, vertices=3 * (last - first))
-        draw_solids()
-=======
         tiles = self.tiles
         for tile in visible_tiles(tiles, camera, self.target.size).tolist():
             first, last = 3 * int(tiles.edge[tile]), 3 * int(tiles.edge[tile + 1])
             self.passes[tiles.kind[tile]].vertices.render(first=first, vertices=last - first)
->>>>>>> main
+        draw_solids()
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
         low, high = horizon_rows(camera, self.target.size)

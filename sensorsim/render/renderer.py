@@ -71,8 +71,6 @@ class Renderer:
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
         self.watch: Callable[[str], None] = _nothing  # told of each stage of a frame for display alone, once it is over
         self._quick: QuickFrame | None = None
-        self._things: Solids | None = None
-        self._solids: SolidPass | None = None
         self._rows: RowChain | None = None
         self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
         self.ctx = create_context(backend)
@@ -115,7 +113,7 @@ class Renderer:
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
         with self.ctx:  # another renderer's context may have become the current one
-            self._things = solids
+            self._solids.solids = solids
             self._moment.set(time_of_day, illumination)
             self._set_view(camera, illumination)
             self.watch("moment")
@@ -129,10 +127,7 @@ class Renderer:
     def illuminate(
         self, time_of_day: float, camera_height: float = 0.0, *, sample: EnvironmentSample | None = None
     ) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m].
-
-        `sample` replaces the weather, sun and sky of the moment.
-        """
+        """Surroundings at a time of the image day [s] or in a `sample`, in the sensor's band, from a height [m]."""
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
@@ -166,6 +161,7 @@ class Renderer:
         buffers, generated = mesh_buffers(ctx, vertices, mesh.triangle), self._moment.generated
         self._surfaces = surface_pass(ctx, buffers, generated, emissive=emissive, lobes=lobes)
         self._background = background_pass(ctx, generated, emissive=emissive)
+        self._solids = SolidPass(ctx, generated, emissive=emissive, first=self.world.scene.surfaces.area.size)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -185,11 +181,7 @@ class Renderer:
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        lowest, highest = self._box
-        if self._things is not None:
-            corners = self._things.triangles.reshape(-1, 3)
-            lowest, highest = np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
-        near, far = clip_distances(camera, self.size, lowest, highest)
+        near, far = clip_distances(camera, self.size, *self._solids.box(*self._box))
         corner, right, up = camera.view_rays(self.size)
         self._blocks["ViewFrame"].write(
             VIEW_FRAME.pack(
@@ -213,16 +205,12 @@ class Renderer:
             self._rows = RowChain(self.sensor, self.size, samples=self.samples, energy=self.blur_energy)
         self._quick.settle(self._moment.number)
         field = float(np.radians(camera.horizontal_field_of_view))
-<<<<<<< HEAD
-        signal = self._rows.run(self._quick.draw(camera, self._draw_solids), field, frame)
-=======
-        self._quick.draw(camera)
+        self._quick.draw(camera, self._solids.draw)
         self.watch("draw")
         stored = self._quick.read()
         self.watch("read-back")
         signal = self._rows.run(stored, field, frame)
         self.watch("sensor")
->>>>>>> main
         settings = fix_window(display, self._rows.seen(signal)) if display.is_automatic else display
         self.watch("window")
         codes = self._rows.show(settings)
@@ -247,14 +235,7 @@ class Renderer:
         self._background.draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._surfaces.draw()
-        self._draw_solids()
-
-    def _draw_solids(self) -> None:
-        if self._things is None:
-            return
-        if self._solids is None:
-            self._solids = SolidPass(self.ctx, self._moment.generated, emissive=self.band_table is not None)
-        self._solids.draw(self._things, self.world.scene.surfaces.area.size)
+        self._solids.draw()
 
     def _bind(self) -> None:
         for block in _BLOCKS:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -58,36 +59,47 @@ class Solids:
 
 
 class SolidPass:
-    """The program of solids and a buffer that grows with what there is to draw."""
+    """Draws the solids of a frame, `solids`: a program, made when there are any, and a buffer that grows."""
 
-    def __init__(self, ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool) -> None:
-        samplers = ("band_radiance_table", "rise_table", "mirror_table")
-        self._ctx = ctx
-        self._program = build_program(
-            ctx, vertex="scene/solid.vert", fragment="scene/solid.frag", defines={"EMISSIVE": int(emissive)},
-            generated={**generated, "constants": constants_glsl()}, blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-            samplers=samplers,
-        )  # fmt: skip
-        bind_samplers(self._program, {name: TEXTURE_UNITS[name] for name in samplers})
-        read = [name for name in _ROW.names or () if name in self._program]
-        self._names = read
-        self._layout = " ".join(f"{count}{kind if name in read else 'x4'}" for name, count, kind in _ATTRIBUTES)
+    def __init__(self, ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, first: int) -> None:
+        """first: the id that follows on those of the scene's surfaces."""
+        self.solids: Solids | None = None
+        self._ctx, self._generated, self._emissive, self._first = ctx, generated, emissive, first
+        self._program: moderngl.Program | None = None
         self._buffer: moderngl.Buffer | None = None
         self._array: moderngl.VertexArray | None = None
 
-    def draw(self, solids: Solids, first: int) -> None:
-        """Draws into the target in use, which has a depth; ids of surfaces go on from `first`."""
-        data = solids.vertices(first)
-        if self._buffer is None or self._array is None or self._buffer.size < len(data):
-            self.release()
-            self._buffer = self._ctx.buffer(reserve=2 * len(data))
-            self._array = self._ctx.vertex_array(self._program, [(self._buffer, self._layout, *self._names)])
-        self._buffer.write(data)
-        self._array.render(vertices=3 * len(solids.triangles))
+    def box(self, lowest: NDArray[Any], highest: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """A box (3,), (3,) [m] widened by the solids."""
+        if self.solids is None:
+            return lowest, highest
+        corners = self.solids.triangles.reshape(-1, 3)
+        return np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
 
-    def release(self) -> None:
-        """Gives back the buffer and its vertex array."""
-        for held in (self._array, self._buffer):
-            if held is not None:
-                held.release()
-        self._array = self._buffer = None
+    def draw(self) -> None:
+        """Draws into the target in use, which has a depth; nothing where there are no solids."""
+        if self.solids is None:
+            return
+        data = self.solids.vertices(self._first)
+        if self._buffer is None or self._array is None or self._buffer.size < len(data):
+            for held in (self._array, self._buffer):
+                if held is not None:
+                    held.release()
+            self._program = self._program or self._build()
+            read = [name for name, _, _ in _ATTRIBUTES if name in self._program]
+            layout = " ".join(f"{count}{kind if name in read else 'x4'}" for name, count, kind in _ATTRIBUTES)
+            self._buffer = self._ctx.buffer(reserve=2 * len(data))
+            self._array = self._ctx.vertex_array(self._program, [(self._buffer, layout, *read)])
+        self._buffer.write(data)
+        self._array.render(vertices=3 * len(self.solids.triangles))
+
+    def _build(self) -> moderngl.Program:
+        samplers = ("band_radiance_table", "rise_table", "mirror_table")
+        program = build_program(
+            self._ctx, vertex="scene/solid.vert", fragment="scene/solid.frag",
+            defines={"EMISSIVE": int(self._emissive)},
+            generated={**self._generated, "constants": constants_glsl()}, blocks=(VIEW_FRAME, ILLUMINATION, AIR),
+            samplers=samplers,
+        )  # fmt: skip
+        bind_samplers(program, {name: TEXTURE_UNITS[name] for name in samplers})
+        return program
