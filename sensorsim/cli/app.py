@@ -13,6 +13,7 @@ from sensorsim.cli.gallery import gallery
 from sensorsim.cli.info import info
 from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
+from sensorsim.cli.serve import serve
 from sensorsim.cli.study_accuracy import accuracy
 from sensorsim.cli.study_effects import effects as study_effects
 from sensorsim.cli.study_sensitivity import sensitivity
@@ -29,7 +30,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",  # of the kinds of help with panels the one that leaves units in [brackets] alone
 )
-for command in (render, view, capture, bench, gallery, diff, effects, scene, wall, info):
+for command in (render, view, serve, capture, bench, gallery, diff, effects, scene, wall, info):
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)

@@ -6,7 +6,7 @@ nearer one is shaded wherever it was drawn first, so near tiles and high feature
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import moderngl
 import numpy as np
@@ -72,8 +72,8 @@ class QuickFrame:
         self.ctx.enable_only(moderngl.NOTHING)
         self.settle_pass.draw()
 
-    def draw(self, camera: Camera) -> None:
-        """Draw what the camera sees, into the target."""
+    def draw(self, camera: Camera, draw_solids: Callable[[], None]) -> None:
+        """Draw what the camera sees, into the target; `draw_solids` draws what stands among the surfaces."""
         self.settled.texture("picture").use(TEXTURE_UNITS["settled_table"])
         self.target.use()
         self.target.clear()
@@ -83,6 +83,7 @@ class QuickFrame:
         for tile in visible_tiles(tiles, camera, self.target.size).tolist():
             first, last = 3 * int(tiles.edge[tile]), 3 * int(tiles.edge[tile + 1])
             self.passes[tiles.kind[tile]].vertices.render(first=first, vertices=last - first)
+        draw_solids()
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
         low, high = horizon_rows(camera, self.target.size)

@@ -24,11 +24,12 @@ class QuickRoad:
         self.rows = RowChain(sensor, size, samples=samples, energy=energy)
 
     def show(
-        self, camera: Camera, display: DisplaySettings, number: int, moment: int, watch: Callable[[str], None]
-    ) -> tuple[NDArray[np.uint8], DisplaySettings]:
+        self, camera: Camera, display: DisplaySettings, number: int, moment: int, watch: Callable[[str], None],
+        draw_solids: Callable[[], None],
+    ) -> tuple[NDArray[np.uint8], DisplaySettings]:  # fmt: skip
         """Codes (height, width) of the frame of that number at that moment; `watch` is told of each stage."""
         self.frame.settle(moment)
-        self.frame.draw(camera)
+        self.frame.draw(camera, draw_solids)
         watch("draw")
         stored = self.frame.read()
         watch("read-back")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.effects import EFFECTS, EVERYTHING, SURFACE, EffectPlan, Ledger
+from sensorsim.environment import EnvironmentSample
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, float_table, mesh_buffers, render_target, update_table
 from sensorsim.radiometry import build_band_table
@@ -22,6 +23,7 @@ from sensorsim.render.passes import TEXTURE_UNITS, display_pass
 from sensorsim.render.picture import QUANTITIES, Picture, exposed
 from sensorsim.render.quick_road import QuickRoad
 from sensorsim.render.sensor_chain import SensorChain
+from sensorsim.render.solids import SolidPass, Solids
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
@@ -89,13 +91,15 @@ class Renderer:
     def render(
         self, camera: Camera, time_of_day: float, *, display: DisplaySettings | None = None,
         illumination: Illumination | None = None, frame: int = 0, planes: Collection[str] | None = None,
+        solids: Solids | None = None,
     ) -> Picture:  # fmt: skip
         """The picture from `camera` at a time of the image day [s].
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
         bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
         number; all that the effects leave, or those asked for. Display alone takes a quicker road where no effect is
-        refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the moment.
+        refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the moment. `solids`
+        stand among the surfaces; their ids follow on those of the scene.
         """
         wanted = self._wanted(planes)
         if illumination is None:
@@ -105,6 +109,7 @@ class Renderer:
         plan = EVERYTHING if ledger is None else ledger.plan
         illumination = seen_with(illumination, plan)
         with self.ctx:  # another renderer's context may have become the current one
+            self._solids.solids = solids
             self._moment.set(time_of_day, illumination, plan)
             self._set_view(camera, illumination)
             self.watch("moment")
@@ -125,14 +130,16 @@ class Renderer:
             extremes=lambda: world_extremes(self.world, time_of_day),
         )  # fmt: skip
 
-    def illuminate(self, time_of_day: float, camera_height: float = 0.0) -> Illumination:
-        """Surroundings at a time of the image day [s], in the sensor's band, from a camera's height [m]."""
+    def illuminate(
+        self, time_of_day: float, camera_height: float = 0.0, *, sample: EnvironmentSample | None = None
+    ) -> Illumination:
+        """Surroundings at a time of the image day [s] or in a `sample`, in the sensor's band, from a height [m]."""
         tables = self.world.tables
         index, share = tables.slice_of(time_of_day)
         ground = tables.ground_temperature[index : index + 2]
         temperature = float(ground[0] + share * (ground[1] - ground[0]))
         return illuminate(
-            self.sensor, self.world.environment.at(time_of_day), temperature, self.band_table,
+            self.sensor, sample or self.world.environment.at(time_of_day), temperature, self.band_table,
             atmosphere=self.atmosphere, camera_height=camera_height,
         )  # fmt: skip
 
@@ -161,6 +168,9 @@ class Renderer:
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
         self._may_be_quick = all(choice.asked(one.name) is not False for one in EFFECTS if one.stage != SURFACE)
+        self._solids = SolidPass(
+            ctx, self._moment.generated, emissive=emissive, first=self.world.scene.surfaces.area.size
+        )
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -181,7 +191,7 @@ class Renderer:
         self._blocks = {block.name: ctx.buffer(reserve=block.dtype.itemsize) for block in _BLOCKS}
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        near, far = clip_distances(camera, self.size, *self._box)
+        near, far = clip_distances(camera, self.size, *self._solids.box(*self._box))
         corner, right, up = camera.view_rays(self.size)
         self._blocks["ViewFrame"].write(
             VIEW_FRAME.pack(
@@ -209,7 +219,7 @@ class Renderer:
                 samples=self.samples,
                 energy=self.blur_energy,
             )
-        codes, settings = self._quick.show(camera, display, frame, self._moment.number, self.watch)
+        codes, settings = self._quick.show(camera, display, frame, self._moment.number, self.watch, self._solids.draw)
         return {"display": codes}, settings
 
     def _show_all(
@@ -230,6 +240,7 @@ class Renderer:
         self._programs.background(plan).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._programs.surfaces(plan).draw()
+        self._solids.draw()
 
     def _bind(self) -> None:
         for block in _BLOCKS:
@@ -249,7 +260,8 @@ class Renderer:
         }
         surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
         planes["surface_id"] = surface
-        planes["feature"] = np.where(surface < 0, -1, self.world.scene.surfaces.feature[np.maximum(surface, 0)])
+        feature = np.append(self.world.scene.surfaces.feature, -1)  # of what is no surface of the scene: none
+        planes["feature"] = feature[np.where(surface < 0, feature.size - 1, np.minimum(surface, feature.size - 1))]
         if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes

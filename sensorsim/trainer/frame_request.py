@@ -59,11 +59,13 @@ class EntityRequest:
 class FrameRequest:
     """All of one frame. fresh: the host's message for it came in time; else it is the last one's, carried on.
 
-    bake: the weather of the last days that the host wants and the tables do not have, None where they have it.
+    time: of the image generator [s]. bake: the weather of the last days that the host wants and the tables do not
+    have, None where they have it.
     """
 
     frame: int
     host_frame: int
+    time: float
     fresh: bool
     moment: datetime
     sun: bool
@@ -85,6 +87,7 @@ def compose_frame(
     return FrameRequest(
         frame=frame,
         host_frame=state.host_frame,
+        time=time,
         fresh=fresh,
         moment=moment_of(state.clock, time),
         sun=state.clock.sun,

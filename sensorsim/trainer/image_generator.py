@@ -27,7 +27,7 @@ from sensorsim.trainer.settings import ImageSettings, Moment
 from sensorsim.trainer.sight import answer
 from sensorsim.trainer.tracker import Locks, track_sensors
 
-REFUSED, BAKE_ASKED, BAKE_DONE = 1, 2, 3  # numbers of messages of text
+REFUSED, BAKE_ASKED, BAKE_DONE, BAKE_REFUSED = 1, 2, 3, 4  # numbers of messages of text
 NOMINAL, BAKE_PENDING = 0, 1  # status in Start of Frame
 MOST_WAITING = 1024  # packets
 COUNTS = 2**32
@@ -126,6 +126,10 @@ class ImageGenerator:
         self._baked = done
         self._asked, self._pending = done, False
         self._say(BAKE_DONE, f"bake done: {done.day}")
+
+    def bake_refused(self, reason: str) -> None:
+        """Says why the weather that was asked for cannot be had; frames go on showing the last one."""
+        self._say(BAKE_REFUSED, f"bake refused: {reason}")
 
     def _true_at(self, message: Message, arrived: float) -> float:
         """IG time at which a message holds [s]."""

@@ -58,9 +58,12 @@ def display_settings(control: SensorState, knobs: Knobs) -> DisplaySettings:
     return DisplaySettings(polarity=polarity, level=level, span=wide * CONTRAST**-control.gain)
 
 
-def sensor_picture(radiance: npt.ArrayLike, control: SensorState, knobs: Knobs, frame: int) -> npt.NDArray[np.uint8]:
+def sensor_picture(
+    radiance: npt.ArrayLike, control: SensorState, knobs: Knobs, frame: int, *, seen: npt.ArrayLike | None = None
+) -> npt.NDArray[np.uint8]:
     """Display codes (h, w) of band radiance (h, w) [W m-2 sr-1]; black when the sensor is off.
 
+    seen: the radiances that automatic gain goes by, of any shape; the whole picture's where it is left out.
     Noise and dropped lines are those of the frame's number, so a frame can be made again. NumericsError for radiance
     that is no picture of finite numbers.
     """
@@ -71,7 +74,7 @@ def sensor_picture(radiance: npt.ArrayLike, control: SensorState, knobs: Knobs, 
         return np.zeros(signal.shape, dtype=np.uint8)
     rng = np.random.default_rng([frame, control.view, control.sensor])
     signal = ac_coupled(signal, control.ac_coupling * 1e-6, knobs.line_time)
-    window = fix_window(display_settings(control, knobs), signal)
+    window = fix_window(display_settings(control, knobs), signal if seen is None else seen)
     if control.noise > 0.0 and window.span is not None:
         signal = signal + rng.normal(0.0, control.noise * NOISIEST * window.span, signal.shape)
     codes = display_code(signal, replace(window, polarity="white-hot"))

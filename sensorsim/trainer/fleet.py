@@ -1,0 +1,136 @@
+"""The vehicles of a scene from frame to frame: how warm their parts are, and the triangles that a renderer draws.
+
+The skin is the sunlit sheet of the world's tables, by each face's direction: the wall type of metal, or where the scene
+has none, the lightest. Paint, the same all over: emissivity and reflectances are estimates.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sensorsim.render import World
+from sensorsim.render.solids import Solids
+from sensorsim.tables.shade import surface_temperature
+from sensorsim.thermal.view_factors import quadrant_view_factors
+from sensorsim.trainer.host_state import Triple
+from sensorsim.trainer.part_heat import Doing, excess_after, steady_excess
+from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude
+from sensorsim.trainer.things import Thing
+from sensorsim.trainer.vehicle_shape import VehicleShape, face_normal
+
+METAL = 12  # code of figure 9 of [Report1978]
+EMISSIVITY, SOLAR_REFLECTANCE, LOW_LIGHT_REFLECTANCE = 0.92, 0.25, 0.35  # of olive paint
+STANDS = 0.3  # [m s-1] below which a vehicle whose speed nobody said stands
+FASTEST = 80.0  # [m s-1]; a place further away is one that it was put to
+TURN, SKIN_EVERY = 1.0, 10.0  # [deg], [s] after which the sunlight on a vehicle is found anew
+SMOOTHING = 1.0  # [s] over which a speed that nobody said is found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Known:
+    """A vehicle as it was: excess of its parts [K], place [m], speed [m s-1], and when [s]; how its faces stood."""
+
+    excess: FloatArray
+    position: Triple
+    speed: float
+    time: float
+    faces: "_Faces"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Faces:
+    """Skin temperature (t,) [K] and view factors (t, 4) of a vehicle's faces, and what they were found for."""
+
+    found_for: object
+    skin: FloatArray
+    quarters: FloatArray
+
+
+class Fleet:
+    """Keeps the heat of every vehicle that is there; one that goes is forgotten."""
+
+    def __init__(self, shapes: Mapping[str, VehicleShape]) -> None:
+        self._shapes = dict(shapes)
+        self._known: dict[tuple[int, ...], _Known] = {}
+
+    def solids(self, things: Sequence[Thing], time: float, world: World, time_of_day: float) -> Solids | None:
+        """Triangles of all vehicles that have a shape, at a time [s] of any clock; None where there is none."""
+        shown = [thing for thing in things if thing.model in self._shapes]
+        self._known = {thing.key: self._now(thing, time, world, time_of_day) for thing in shown}
+        if not shown:
+            return None
+        shapes = [self._shapes[thing.model] for thing in shown]
+        triangles = np.concatenate([_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)])
+        known, even = [self._known[thing.key] for thing in shown], np.ones(len(triangles))
+        heat = [one.faces.skin + one.excess[shape.part] for one, shape in zip(known, shapes, strict=True)]
+        return Solids(
+            triangles=triangles,
+            normal=face_normal(triangles),
+            quarters=np.concatenate([one.faces.quarters for one in known]),
+            temperature=np.concatenate(heat),
+            emissivity=EMISSIVITY * even,
+            reflectance=LOW_LIGHT_REFLECTANCE * even,
+            number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes]),
+        )
+
+    def _now(self, thing: Thing, time: float, world: World, time_of_day: float) -> _Known:
+        """A vehicle that appears has long been doing what it does."""
+        before = self._known.get(thing.key)
+        faces = self._faces(thing, None if before is None else before.faces, world, time_of_day)
+        if before is None:
+            doing = _doing(thing, thing.speed or 0.0)
+            return _Known(
+                excess=steady_excess(doing), position=thing.position, speed=doing.speed, time=time, faces=faces
+            )
+        elapsed = time - before.time
+        speed = _speed(before, thing, elapsed) if thing.speed is None else thing.speed
+        excess = excess_after(before.excess, _doing(thing, speed), elapsed)
+        return _Known(excess=excess, position=thing.position, speed=speed, time=time, faces=faces)
+
+    def _faces(self, thing: Thing, before: _Faces | None, world: World, time_of_day: float) -> _Faces:
+        """The faces as last found, unless the vehicle turned, the clock went on or the world is another."""
+        angles = np.rint(np.array(thing.angles) / TURN) * TURN
+        found_for = (thing.model, *angles.tolist(), time_of_day // SKIN_EVERY, world.inputs_sha256)
+        if before is not None and before.found_for == found_for:
+            return before
+        shape = self._shapes[thing.model]
+        first, second, third = angles.tolist()
+        normal = face_normal(shape.triangles) @ (ENU_FROM_NED @ attitude((first, second, third))).T
+        wall, reflectance = np.full(len(normal), skin_wall(world)), np.full(len(normal), SOLAR_REFLECTANCE)
+        skin = surface_temperature(world.tables, normal, wall, reflectance, time_of_day)
+        return _Faces(found_for=found_for, skin=skin, quarters=quadrant_view_factors(normal))
+
+
+def skin_wall(world: World) -> int:
+    """Row of the wall type that stands for sheet metal: metal, with outside air behind it if there is such a wall."""
+    walls = world.tables.wall_types
+
+    def unlike(row: int) -> tuple[bool, bool, float]:
+        wall = walls[row]
+        mass = sum(layer.density * layer.specific_heat * layer.thickness for layer in wall.layers)
+        return wall.code != METAL, wall.interior not in ("open", "none"), mass if wall.layers else np.inf
+
+    return min(range(len(walls)), key=unlike)
+
+
+def _doing(thing: Thing, speed: float) -> Doing:
+    moving = speed > STANDS
+    runs = moving if thing.engine_on is None else thing.engine_on
+    return Doing(engine_on=runs, speed=speed if moving else 0.0, burning=thing.burning)
+
+
+def _speed(before: _Known, thing: Thing, elapsed: float) -> float:
+    """Speed from place to place, smoothed."""
+    if elapsed <= 0.0:
+        return before.speed
+    new = float(np.linalg.norm(np.subtract(thing.position, before.position))) / elapsed
+    if new > FASTEST:
+        return before.speed
+    share = 1.0 - np.exp(-elapsed / SMOOTHING)
+    return float(before.speed + share * (new - before.speed))
+
+
+def _placed(shape: VehicleShape, thing: Thing) -> FloatArray:
+    """Triangles (t, 3, 3) east, north, up [m]."""
+    return np.asarray(shape.triangles @ (ENU_FROM_NED @ attitude(thing.angles)).T + np.array(thing.position))
