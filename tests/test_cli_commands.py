@@ -55,6 +55,18 @@ def test_info_names_back_end_renderer_and_versions(
     assert told["sensorsim"] in plain
 
 
+@pytest.mark.parametrize("preset", ["draft", "report", "standard"])
+@pytest.mark.parametrize("sensor", ["lltv", "sit1977"])
+def test_low_light_picture_needs_no_wall_with_any_preset(
+    monkeypatch: pytest.MonkeyPatch, town: Path, tmp_path: Path, sensor: str, preset: str
+) -> None:
+    words = ("--at", AT, "--size", "48x36", "--preset", preset, "--sensor", sensor)
+    _run(monkeypatch, "render", town, *words, "--out", tmp_path / "night.png")
+    ledger = json.loads((tmp_path / "night.json").read_text())["settings"]["effects"]
+    assert {row["effect"]: row["on"] for row in ledger}["temperature"] is False
+    assert imageio.imread(tmp_path / "night.png").std() > 10.0
+
+
 @pytest.mark.parametrize(
     ("level", "counts"), [("IA", (12, 111, 188, 544)), ("IIA", (21, 131, 285, 611)), ("IIIB", (87, 684, 1155, 3203))]
 )

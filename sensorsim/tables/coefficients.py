@@ -65,8 +65,8 @@ class ShadeTables:
 
     def _spread(self, coefficients: FloatArray) -> FloatArray:
         """From the solved orientations to those that are looked up."""
-        if self.settings.interpolation != "spline":
-            return coefficients
+        if self.settings.interpolation != "spline" or coefficients.shape[1] == self.orientations.normal.shape[0]:
+            return coefficients  # tables that were not baked have no more orientations than are looked up
         return np.asarray(spline_matrix(self.settings.orientations, self.orientations.name) @ coefficients)
 
     @staticmethod
