@@ -13,9 +13,9 @@ lobes 1800 s, the same                                        0.08 / 0.38   198
 lobes 900 s, the same: the default                            0.08 / 0.29   198
 lobes 1800 s, spline through octahedron146                    0.05 / 0.27   438
 
-The default over the whole catalogue of 60 materials, 36 normals, every 45 minutes: 0.10 / 0.34 in winter, 0.08 / 0.29 in
-fall, 0.03 / 0.10 in summer, snow apart, which melts: 0.3 to 0.6 / 0.8 to 1.6. Clear sun in perfectly still air, insulated
-faces to 87 C: 0.20 / 0.5, snow 1.2 / 2.7. Lead-ins of three steps in one add up to 0.03.
+The default over the whole catalogue of 60 materials, 36 normals, every 45 minutes: 0.10 / 0.34 in winter, 0.08 / 0.29
+in fall, 0.03 / 0.10 in summer, snow apart, which melts: 0.3 to 0.6 / 0.8 to 1.6. Clear sun in perfectly still air,
+insulated faces to 87 C: 0.20 / 0.5, snow 1.2 / 2.7. Lead-ins of three steps in one add up to 0.03.
 
 At the default's orientations a degree of 1 through three reflectances gives 0.09 / 0.39, two reflectances 0.29 / 0.69,
 four and a cubic the same as three; slices of 10 and 15 minutes 0.14 / 0.47 and 0.22 / 0.87, because the sun leaves a
