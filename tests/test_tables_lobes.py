@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from small_world import SETTINGS, environment, random_normals, tables, wall_types
+from table_error import Surfaces, fit_error, full_solve, summarise
 
 from sensorsim.materials import load_catalogue
-from sensorsim.study.fit_error import Surfaces, fit_error, full_solve, summarise
 from sensorsim.tables import bake_tables, orientation_set, surface_temperature
 from sensorsim.tables.lobes import lobe_sources, lobe_weights
 from sensorsim.tables.spline import spline_matrix

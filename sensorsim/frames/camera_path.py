@@ -23,7 +23,6 @@ from sensorsim.render import Camera
 from sensorsim.scene import LocalFrame
 
 PATH_COLUMNS = ("t", "lat", "lon", "alt", "yaw", "pitch", "roll", "hfov")
-_TUM_NUMBERS = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,14 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.materials import Layer
 from sensorsim.study.wall_setup import FloatArray, indoors, outdoors, slab, uniform_grid
 from sensorsim.thermal import WallGrid, march
-
-ComplexArray = NDArray[np.complex128]
 
 MEAN, DRIFT = 300.0, -15.0  # [K] at the exterior face, [W m-2] steady flux into the wall
 WAVES = ((86400.0, 12.0), (21600.0, 4.0), (7200.0, 1.5))  # period [s] and amplitude at the exterior face [K]

@@ -14,7 +14,6 @@ from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, FloatArray, angles
 
 SILENCE = 12.0  # [s] after which an entity is gone: 2.4 heartbeats of 5 s [IEEE1278]
 MOST_ENTITIES = 4096
-DIS_PORT = 3000
 
 Identity = tuple[int, int, int]
 

@@ -39,20 +39,6 @@ class Miss:
     time_of_day: float  # [s]
 
 
-def random_surfaces(wall_types: Sequence[WallType], times: FloatArray, *, count: int = 240, seed: int = 0) -> Surfaces:
-    """Normals all over the sphere, a sixth of them upright and a twelfth looking up; reflectances from 0.05 to 0.95."""
-    rng = np.random.default_rng(seed)
-    vector = rng.normal(size=(count, 3))
-    vector[: count // 6, 2] = 0.0
-    vector[count // 6 : count // 4, 2] = np.abs(vector[count // 6 : count // 4, 2])
-    return Surfaces(
-        wall_types=tuple(wall_types),
-        normal=vector / np.linalg.norm(vector, axis=1, keepdims=True),
-        reflectance=np.array([0.05, 0.35, 0.65, 0.95]),
-        time_of_day=np.asarray(times, dtype=np.float64),
-    )
-
-
 def full_solve(
     environment: Environment, surfaces: Surfaces, *, ground: WallType, settings: BakeSettings
 ) -> list[FloatArray]:
