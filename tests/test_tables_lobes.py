@@ -9,8 +9,9 @@ from table_error import Surfaces, fit_error, full_solve, summarise
 
 from sensorsim.materials import load_catalogue
 from sensorsim.tables import bake_tables, orientation_set, surface_temperature
-from sensorsim.tables.lobes import lobe_sources, lobe_weights
-from sensorsim.tables.spline import spline_matrix
+from sensorsim.tables.fit import fit_gain
+from sensorsim.tables.lobes import gain_terms, lobe_gain, lobe_sources, lobe_weights
+from sensorsim.tables.spline import roughness, spline_matrix
 from sensorsim.tables.straighten import bend_back, fit_bend, straighten
 from sensorsim.thermal import build_grid
 from sensorsim.thermal.heat_balance import directional_irradiance
@@ -133,6 +134,45 @@ def test_spline_keeps_what_it_knows_and_reproduces_its_own_forms() -> None:
     values = np.random.default_rng(1).normal(size=66)
     same = np.argmin(np.linalg.norm(dense.normal[None] - solved[:, None], axis=2), axis=1)
     np.testing.assert_allclose((matrix @ values)[same], values, atol=1e-9)
+
+
+def _one_sun(gain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rise (1, o, 3) [K] by one lobe and the same with a gain, at reflectances 0.1, 0.5 and 0.9."""
+    normal = orientation_set("octahedron66").normal
+    sun = np.array([0.5, -0.6, 0.62])
+    rise = 30.0 * np.maximum(normal @ sun, 0.0)[None, :, None] * np.array([0.9, 0.5, 0.1])
+    return rise, rise * lobe_gain(gain, normal)[:, :, None]
+
+
+def test_gain_of_the_lobes_is_found_whatever_smooth_field_lies_under_them() -> None:
+    """The forms that the spline knows cost it nothing, so they do not mislead: gains come out within a percent."""
+    normal, gain = orientation_set("octahedron66").normal, np.array([[0.9, 0.05, -0.04, -0.1, 0.08]])
+    rise, gained = _one_sun(gain)
+    field = 280.0 + 9.0 * normal[:, 2] + 5.0 * normal[:, 0] * normal[:, 1] + 3.0 * np.abs(normal[:, 2])
+    found = fit_gain(field[None, :, None] + gained, rise, "octahedron66", np.array([0.1, 0.5, 0.9]))
+    np.testing.assert_allclose(found, gain, atol=0.015)
+    asked = random_normals(200)
+    np.testing.assert_allclose(lobe_gain(found, asked), lobe_gain(gain, asked), atol=0.02)
+
+
+def test_lobes_that_do_not_show_have_hardly_any_gain_and_no_lobes_a_gain_of_one() -> None:
+    """Melting snow stays at 0 C in any sun; without sun nothing can be told and nothing is made up."""
+    rise, _ = _one_sun(np.array([[1.0, 0.0, 0.0, 0.0, 0.0]]))
+    reflectances = np.array([0.1, 0.5, 0.9])
+    hidden = fit_gain(np.full(rise.shape, 273.15), rise, "octahedron66", reflectances)
+    np.testing.assert_allclose(hidden, 0.0, atol=0.02)
+    dark = fit_gain(np.full(rise.shape, 280.0), np.zeros_like(rise), "octahedron66", reflectances)
+    np.testing.assert_allclose(dark, [[1.0, 0.0, 0.0, 0.0, 0.0]], atol=1e-9)
+    assert gain_terms(np.array([[0.0, 0.0, -1.0]])).tolist() == [[1.0, 0.0, 0.0, -1.0, 1.0]]
+
+
+def test_roughness_is_nothing_for_known_forms_and_positive_for_a_kink() -> None:
+    for name in ("octahedron66", "report26", "icosphere42", "octahedron18"):
+        energy, normal = roughness(name), orientation_set(name).normal
+        assert np.linalg.eigvalsh(energy).min() > -1e-9
+        assert abs(normal[:, 2] @ energy @ normal[:, 2]) < 1e-9
+        kink = np.maximum(normal @ np.array([0.36, 0.48, 0.8]), 0.0)
+        assert kink @ energy @ kink > 1e-3
 
 
 def test_bend_straightens_a_face_that_radiates_and_comes_back() -> None:

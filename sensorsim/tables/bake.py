@@ -15,7 +15,7 @@ from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
 from sensorsim.tables.history import solve_histories
-from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
+from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
@@ -50,6 +50,7 @@ def bake_tables(
     begin = lead_in_of(ground, environment, own=own)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
     record = _slices(environment, settings)
+    sources = _sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None
     bake = _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
@@ -58,7 +59,8 @@ def bake_tables(
         scope=scope,
         wall_types=tuple(wall_types),
         record=record,
-        sources=_sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None,
+        sources=sources,
+        facing=None if sources is None else facing_lobes(sources, scope.solved),
     )
     rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
     return ShadeTables(
@@ -96,6 +98,7 @@ class _Bake:
     wall_types: tuple[WallType, ...]
     record: IntArray  # (t,) samples of the slices
     sources: LobeSources | None
+    facing: FloatArray | None  # (t, k + 1, o) of the solved orientations to the lobes
 
     @property
     def reflectances(self) -> FloatArray:
@@ -132,7 +135,7 @@ class _Bake:
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
-        if self.sources is None:
+        if self.facing is None:
             return self._fit_needed(wall, temperature, degree)
         rises = [
             history.weight[..., None] * (1.0 - row)
@@ -141,7 +144,7 @@ class _Bake:
         ]
         courses = [part.mean(axis=1, keepdims=True) for part in parts]
         rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
-        return fit_lobes(temperature, rise, self.sources, self.exposure.normal, refl, degree)
+        return fit_lobes(temperature, rise, self.facing, self.settings.orientations, refl, degree)
 
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
@@ -180,7 +183,8 @@ def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dty
     if sources is None:
         return None
     weight = np.stack([row.weight for row in rows if row.weight is not None], axis=1)
-    return Lobes(sun=sources.sun, direction=sources.direction, weight=weight.astype(kept))
+    gain = np.stack([row.gain for row in rows if row.gain is not None], axis=1)
+    return Lobes(sun=sources.sun, direction=sources.direction, weight=weight.astype(kept), gain=gain)
 
 
 def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], settings: BakeSettings) -> ShadeTables:
