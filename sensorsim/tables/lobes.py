@@ -115,7 +115,7 @@ def facing_lobes(sources: LobeSources, normal: FloatArray) -> FloatArray:
     whole = np.concatenate(
         [(sources.sun @ normal.T)[:, None], np.broadcast_to(still, (sources.sun.shape[0], *still.shape))], axis=1
     )
-    return np.maximum(whole, 0.0)
+    return np.asarray(np.maximum(whole, 0.0))
 
 
 def sun_at(environment: Environment, position: FloatArray) -> FloatArray:
