@@ -6,7 +6,6 @@ one of them is complete; the JSON sidecar comes last, so that where it stands, t
 
 import hashlib
 import json
-import secrets
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from sensorsim.errors import InputError, NumericsError
+from sensorsim.files import placed_whole
 from sensorsim.frames import encode
 from sensorsim.frames.frame import JSON, Frame, Plane, build_frame
 
@@ -162,22 +162,13 @@ def _write_all(
     files: Mapping[Path, Write], sidecar: Path, describe: Callable[[Mapping[Path, str]], bytes]
 ) -> list[Path]:
     """Writes all files and the sidecar that describes them, given the SHA-256 of each, or none of them."""
-    mark = f".{secrets.token_hex(4)}.partial"
-    temporary = {path: path.with_name(f".{path.name}{mark}") for path in (*files, sidecar)}
-    placed: list[Path] = []
     try:
-        for path, write in files.items():
-            write(temporary[path])
-        digests = {path: hashlib.sha256(temporary[path].read_bytes()).hexdigest() for path in files}
-        temporary[sidecar].write_bytes(describe(digests))
-        for path, written in temporary.items():
-            written.replace(path)
-            placed.append(path)
-    except BaseException as error:
-        for path in (*temporary.values(), *placed):
-            path.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            remedy = "check the folder's permissions and free space"
-            raise InputError(sidecar.parent, "file", str(error.filename), str(error.strerror), remedy) from error
-        raise
-    return placed
+        with placed_whole(*files, sidecar) as (*written, described):
+            for path, write in zip(written, files.values(), strict=True):
+                write(path)
+            digests = (hashlib.sha256(path.read_bytes()).hexdigest() for path in written)
+            described.write_bytes(describe(dict(zip(files, digests, strict=True))))
+    except OSError as error:
+        remedy = "check the folder's permissions and free space"
+        raise InputError(sidecar.parent, "file", str(error.filename), str(error.strerror), remedy) from error
+    return [*files, sidecar]
