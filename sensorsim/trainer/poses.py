@@ -54,13 +54,12 @@ def entity_pose(state: HostState, key: int, time: float, around: Surroundings) -
     return _on_map(pose)
 
 
-def view_pose(state: HostState, view: View, time: float, around: Surroundings) -> Pose | None:
+def view_pose(view: View, entity: Pose | None) -> Pose | None:
     """Pose of a view's eye: its offset, then its angles, in the axes of the entity that it is attached to."""
-    entity = state.entities.get(view.entity)
-    pose = entity_pose(state, view.entity, time, around) if entity is not None else None
-    if pose is None:
+    if entity is None:
         return None
-    return _on_map(Pose(position=pose.from_body(np.array(view.offset)), attitude=pose.attitude @ attitude(view.angles)))
+    eye = entity.from_body(np.array(view.offset))
+    return _on_map(Pose(position=eye, attitude=entity.attitude @ attitude(view.angles)))
 
 
 def _on_map(pose: Pose | None) -> Pose | None:

@@ -44,7 +44,7 @@ def track_sensors(state: HostState, time: float, around: Surroundings, locks: Lo
         view = state.views.get(sensor.view)
         if sensor.track_mode == "off" or not sensor.on or view is None:
             continue
-        eye = view_pose(state, view, time, around)
+        eye = view_pose(view, entity_pose(state, view.entity, time, around))
         lock = None if eye is None else locks.get(key) or _acquire(state, sensor, view, eye, time, around)
         lock, said = _gate(state, view, eye, lock, time, around)
         if lock is not None:
