@@ -19,9 +19,8 @@ from sensorsim.trainer.host_state import Triple
 from sensorsim.trainer.part_heat import Doing, excess_after, steady_excess
 from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude
 from sensorsim.trainer.things import Thing
-from sensorsim.trainer.vehicle_shape import VehicleShape, face_normal
+from sensorsim.trainer.vehicle_shape import METAL, VehicleShape, face_normal
 
-METAL = 12  # code of figure 9 of [Report1978]
 EMISSIVITY, SOLAR_REFLECTANCE, LOW_LIGHT_REFLECTANCE = 0.92, 0.25, 0.35  # of olive paint
 STANDS = 0.3  # [m s-1] below which a vehicle whose speed nobody said stands
 FASTEST = 80.0  # [m s-1]; a place further away is one that it was put to

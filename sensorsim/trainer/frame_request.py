@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sensorsim.trainer.bake_request import BakeRequest
 from sensorsim.trainer.handle_environment import moment_of
 from sensorsim.trainer.host_state import Air, Component, HostState, Layer, Part, SensorState, Triple, View
-from sensorsim.trainer.motion import part_at
+from sensorsim.trainer.motion import parts_at
 from sensorsim.trainer.poses import Pose, Surroundings, entity_pose, view_pose
 from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, angles_of
 
@@ -145,14 +145,13 @@ def _entities(state: HostState, time: float, poses: Mapping[int, Pose | None]) -
         if pose is None:
             continue
         entity = state.entities[number]
-        moving = state.extrapolate and entity.extrapolate
         request = EntityRequest(
             number=number,
             type_number=entity.type_number,
             position=_triple(pose.position),
             angles=local_angles(pose),
             alpha=entity.alpha,
-            parts={key: part_at(part, time) if moving else part for key, part in entity.parts.items()},
+            parts=parts_at(entity, time, moving=state.extrapolate),
             components={key[2]: part for key, part in state.components.items() if key[:2] == (0, number)},
         )
         found.append(request)

@@ -13,6 +13,7 @@ from sensorsim.trainer.articulation import Joint
 from sensorsim.trainer.rotations import FloatArray
 
 PARTS = ("skin", "engine", "exhaust", "tracks", "wheels", "cabin")
+METAL = 12  # what vehicles are of: code of figure 9 of [Report1978]
 SIDES = 12  # of a cylinder
 # Corners of the unit cube by the bits of their number (x, y, z), and its faces counter-clockwise seen from outside
 _CORNERS = np.array([[number & 1, number >> 1 & 1, number >> 2 & 1] for number in range(8)]) - 0.5
