@@ -16,8 +16,10 @@ from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
 from sensorsim.render.blocks import AIR, DISPLAY, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.detail import DetailRule
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
 from sensorsim.render.illumination import Illumination, illuminate, seen_with
+from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS, display_pass
 from sensorsim.render.picture import QUANTITIES, Picture, exposed
@@ -49,8 +51,12 @@ class Renderer:
     def __init__(
         self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
         samples: int = 1, blur_energy: float = 0.99, atmosphere: str = DEFAULT_ATMOSPHERE,
+        detail: DetailRule | None = None,
     ) -> None:  # fmt: skip
-        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces."""
+        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces.
+
+        `detail` chooses among the levels of a scene that holds several.
+        """
         self.atmosphere = check_atmosphere(atmosphere)
         if samples not in (1, 3, 5, 7):
             raise InputError("renderer", "samples", samples, "not 1, 3, 5 or 7", "give an odd number per pixel's side")
@@ -60,8 +66,10 @@ class Renderer:
         self.sensor = sensor
         self.size = sensor.size if size is None else size
         self.samples, self.blur_energy = samples, blur_energy
+        self.detail = DetailRule() if detail is None else detail
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
-        self.watch: Callable[[str], None] = _nothing  # told of each stage of a frame for display alone, once it is over
+        # Told of each stage of a frame for display alone, once it is over:
+        self.watch: Callable[[str], None] = lambda _stage: None
         self._quick: QuickRoad | None = None
         self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
         require_temperature(world, sensor)
@@ -110,12 +118,15 @@ class Renderer:
         illumination = seen_with(illumination, plan)
         with self.ctx:  # another renderer's context may have become the current one
             self._solids.solids = solids
+            road = self._quick_road() if quick else None
+            self._level.look(camera, None if self._quick is None else self._quick.frame)
             self._moment.set(time_of_day, illumination, plan)
             self._set_view(camera, illumination)
             self.watch("moment")
             chosen = self.sensor.display if display is None else display
-            if quick:
-                found, settings = self._show_quickly(camera, chosen, frame)
+            if road is not None:
+                codes, settings = road.show(camera, chosen, frame, self._moment.number, self.watch, self._solids.draw)
+                found: dict[str, NDArray[Any]] = {"display": codes}
             else:
                 found, settings = self._show_all(camera, chosen, frame, wanted, plan)
         return Picture(
@@ -164,6 +175,7 @@ class Renderer:
         self._moment = MomentTables(ctx, self.world, self.band_table)
         vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
         buffers, emissive = mesh_buffers(ctx, vertices, mesh.triangle), self.band_table is not None
+        self._level = LevelOfDetail(self.world.scene, self.size, self.detail, buffers.index)
         self._programs = Programs(ctx, buffers, self._moment.generated, emissive=emissive)
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
@@ -206,21 +218,14 @@ class Renderer:
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
 
-    def _show_quickly(
-        self, camera: Camera, display: DisplaySettings, frame: int
-    ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
+    def _quick_road(self) -> QuickRoad:
+        """The road of frames for display alone, made for the first of them."""
         if self._quick is None:
             self._quick = QuickRoad(
-                self.ctx,
-                self.world,
-                self.sensor,
-                self.size,
-                self._moment.generated,
-                samples=self.samples,
+                self.ctx, self.world, self.sensor, self.size, self._moment.generated, samples=self.samples,
                 energy=self.blur_energy,
-            )
-        codes, settings = self._quick.show(camera, display, frame, self._moment.number, self.watch, self._solids.draw)
-        return {"display": codes}, settings
+            )  # fmt: skip
+        return self._quick
 
     def _show_all(
         self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
@@ -292,7 +297,3 @@ class Renderer:
         self.ctx.enable_only(moderngl.NOTHING)
         show.draw()
         return np.asarray(self._screen.read("grey")[:, :, 0])
-
-
-def _nothing(_stage: str) -> None:
-    """Nobody watches."""
