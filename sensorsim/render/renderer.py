@@ -95,10 +95,10 @@ class Renderer:
         """The picture from `camera` at a time of the image day [s].
 
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
-        bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1], of the frame of that
-        number; all that the effects leave, or those asked for. Display alone takes a quicker road where no effect is
-        refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the moment. `solids`
-        stand among the surfaces; their ids follow on those of the scene.
+        bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1] and raw counts, of the
+        frame of that number; all that the effects leave, or those asked for. Display alone takes a quicker road where
+        no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the
+        moment. `solids` stand among the surfaces; their ids follow on those of the scene.
         """
         wanted = self._wanted(planes)
         if illumination is None:
@@ -120,7 +120,7 @@ class Renderer:
                 found, settings = self._show_all(camera, chosen, frame, wanted, plan)
         return Picture(
             planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
-            ledger=ledger,
+            ledger=ledger, count_step=None if quick or self._chain is None else self._chain.step,
         )  # fmt: skip
 
     def ledger(self, camera: Camera, time_of_day: float, illumination: Illumination) -> Ledger:
@@ -146,10 +146,12 @@ class Renderer:
     def _wanted(self, planes: Collection[str] | None) -> set[str]:
         there = {*QUANTITIES, "surface_id", "feature", "display"}
         there |= {"signal"} if self.sensor.detector is not None else set()
+        there |= {"counts"} if self.sensor.has_counts else set()
         there |= {"apparent_temperature"} if self.band_table is not None else set()
         unknown = set() if planes is None else set(planes) - there
         if unknown or (planes is not None and not planes):
-            raise InputError("renderer", "planes", sorted(unknown), "not there", f"use {', '.join(sorted(there))}")
+            where, problem = f"sensor {self.sensor.name!r}", "not what its frames have"
+            raise InputError(where, "planes", sorted(unknown), problem, f"use {', '.join(sorted(there))}")
         return there if planes is None else set(planes)
 
     def _surroundings(self, time_of_day: float, height: float) -> Illumination:
@@ -281,6 +283,8 @@ class Renderer:
         field = float(np.radians(camera.horizontal_field_of_view))
         self._chain.run(self._target.texture("quantities"), field, frame, exposure=exposure, level=level)
         planes["signal"] = self._chain.read(self._chain.output)
+        if self.sensor.has_counts:
+            planes["counts"] = np.rint(planes["signal"] / self._chain.step).astype(np.uint16)
 
 
 def _nothing(_stage: str) -> None:

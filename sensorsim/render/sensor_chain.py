@@ -46,6 +46,7 @@ class SensorChain:
         self.look = sensitivity(sensor)
         self.field = 0.0  # [rad] that kernel and columns are for
         self.last_frame: int | None = None
+        self.step = self.look.step  # band radiance of a count of the last run [W m-2 sr-1]
         self.streaks = sensor.scan.ac_coupling > 0.0
         self.halo = sensor.intensifier is not None
         self.remembers = renewed_share(sensor) < 1.0
@@ -74,6 +75,7 @@ class SensorChain:
         """
         self._look_through(field)
         look = self.look.stopped(exposure)
+        self.step = look.step
         self._set_frame(look, frame, level)
         self._draw("products", {"radiance_picture": picture})
         self._draw("focal_plane", {"product_picture": self._texture("products")})
