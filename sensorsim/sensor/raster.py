@@ -23,7 +23,7 @@ def is_plain(scan: Scan) -> bool:
 def source_rows(scan: Scan, rows: int, frame: int, *, follows: bool) -> NDArray[np.int64]:
     """Row (rows,) of the report that each row shows as that frame, counted from the top; HELD where it stays."""
     lines = min(scan.lines, rows) if scan.lines else rows
-    line = np.arange(rows, dtype=np.int64) * lines // rows
+    line = (2 * np.arange(rows, dtype=np.int64) + 1) * lines // (2 * rows)
     middle = (2 * line + 1) * rows // (2 * lines)
     fresh = (line - frame) % scan.interlace == 0
     return np.where(fresh | (not follows), middle, HELD)
