@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sensorsim.effects import EFFECTS
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
@@ -12,7 +14,7 @@ class Case:
     sensor: str
     weather: str  # of effects_weather
     hour: float
-    camera: str  # a camera of the scene, or 'behind' for the hospital from its other side
+    camera: str  # of the scene, or 'behind' and 'into the sun': see effects_pairs
     look_for: str
     sky: str = "perez"
     turn: float = 0.0  # [deg] that the camera has turned by since the frame before, for what remembers it
@@ -58,14 +60,14 @@ CASES = (
     _warm("forced_convection", "winter", 13.0, "hospital",
           "Without the wind's film sunlit surfaces heat up by tens of kelvin and shaded ones drift from the air."),
     _warm("free_convection", "still winter", 13.0, "cement_plant",
-          "With no wind the warm metal sheds are cooled by the film that they raise themselves: without it they glow."),
-    _warm("rain", "rain", 12.0, "tower", "Rain holds hard surfaces near its own temperature; grass stays as it is."),
+          "With no wind warm sheds and pavement are cooled by air that they raise themselves: without it they glow."),
+    _warm("rain", "rain", 12.0, "tower", "Rain cools roofs most, walls and grass a little."),
     _warm("evaporation", "summer", 13.0, "tower", "Grass and trees lose their coolness; dry walls stay as they are."),
     _warm("snow", "snow", 13.0, "tower", "Ground under snow is colder than 273 K and even; bare ground has patterns."),
     _light("snow", "snow", 13.0, "tower", "Snow makes the ground brighter than any wall, and lights walls from below."),
     _warm("exchange", "winter", 7.0, "tower",
           "Walls that stand close to others are warmer before dawn: they see each other in place of sky and ground."),
-    _warm("interior", "winter", 7.0, "hospital", "Heated walls and roofs leak: without rooms they are a little colder."),
+    _warm("interior", "winter", 7.0, "hospital", "Heated walls leak: without rooms behind them they are a little colder."),
     _warm("reflected_sky", "winter", 7.0, "cement_plant",
           "Without what they mirror surfaces look colder by their reflectance; bare metal sheds by far the most."),
     _warm("specular", "winter", 13.0, "cement_plant",
@@ -75,11 +77,13 @@ CASES = (
     _part("blur", "flir1977", 10.0, "Edges are soft over about two pixels; thin masts fade."),
     _part("blur", "sit1977", 10.0, "The tube's spot makes a soft picture; thin masts fade."),
     _part("noise", "flir1977", 10.0, "Rows of unequal channels and grain over all; nothing else changes."),
-    _part("noise", "sit1977", 7.0, "Before dawn few electrons are counted: grain in the dark parts."),
+    _part("noise", "sit1977", 7.25, "Before sunrise few electrons are counted: grain over all, most in dark parts."),
     _part("memory", "uncooled", 10.0, "The frame before still shows: double edges along the turn.", turn=0.3),
     _part("memory", "sit1977", 10.0, "The tube still holds a share of the frame before: double edges.", turn=0.3),
-    _part("streaks", "flir1977", 13.0, "Rows that hold hot walls are darkened to their right.", "hospital"),
-    _part("halo", "sit1977", 10.0, "Discs of light around the few walls that saturate the tube."),
+    _part("streaks", "flir1977", 13.0,
+          "Rows that hold hot walls are darkened, to their right most; the cold sky comes to the ground's level."),
+    _part("halo", "sit1977", 16.5, "Light of the haze below the low sun, which saturates the tube, spills over roofs.",
+          "into the sun"),
 )  # fmt: skip
 
 WITHOUT_PICTURE: Mapping[str, str] = {
@@ -87,3 +91,14 @@ WITHOUT_PICTURE: Mapping[str, str] = {
     "spare_orientations": "histories that no surface of the scene shows: pictures are the same",
     "spare_reflectances": "histories that no surface of the scene shows: pictures are the same",
 }
+
+
+def all_cases() -> tuple[Case, ...]:
+    """CASES, and for an effect that has none of its own and calls for no part of a sensor the tower at noon."""
+    known = {case.effect for case in CASES} | set(WITHOUT_PICTURE)
+    plain = [effect for effect in EFFECTS if effect.name not in known and not effect.part]
+    looks = {effect.name: _light if effect.mode == "reflective" else _warm for effect in plain}
+    return CASES + tuple(
+        looks[effect.name](effect.name, "winter", 13.0, "tower", f"{effect.meaning[0].upper()}{effect.meaning[1:]}.")
+        for effect in plain
+    )

@@ -16,13 +16,14 @@ from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Picture, Renderer, World, build_world, look_at, station_camera
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import Sensor, load_sensor
-from sensorsim.study.effects_cases import CASES, Case
+from sensorsim.study.effects_cases import Case, all_cases
 from sensorsim.study.effects_weather import study_weather
 from sensorsim.tables import BakeSettings
 
 FloatArray = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
 SPARE = frozenset({"spare_orientations", "spare_reflectances"})
+MIRRORED = ("behind", "into the sun")  # the hospital from its other side, and with the horizon in the middle
 OF_FRAMES = frozenset(effect.name for effect in EFFECTS if effect.stage == FRAME)
 
 
@@ -56,7 +57,7 @@ class Pair:
 
 def take_pairs(
     *, settings: BakeSettings | None = None, size: tuple[int, int] = (320, 240), backend: str = "auto",
-    progress: Progress | None = None, cases: Sequence[Case] = CASES,
+    progress: Progress | None = None, cases: Sequence[Case] | None = None,
 ) -> Iterator[Pair]:  # fmt: skip
     """One pair for each case, in their order."""
     chosen = BakeSettings() if settings is None else settings
@@ -70,9 +71,10 @@ def take_pairs(
             scene, series, image_day=day, settings=replace(chosen, sky=sky), effects=choice, sensor=sensor
         )
 
-    for done, case in enumerate(cases):
+    shown = all_cases() if cases is None else cases
+    for done, case in enumerate(shown):
         if progress is not None:
-            progress(f"{case.effect}, {case.sensor}", done, len(cases))
+            progress(f"{case.effect}, {case.sensor}", done, len(shown))
         sensor = load_sensor(case.sensor)
         on, off = _choices(case.effect, sensor)
         whole = world(case.weather, case.sky, sensor.mode, on)
@@ -101,17 +103,21 @@ def _look(world: World, case: Case, sensor: Sensor, size: tuple[int, int], backe
 
 def _camera(scene: Scene, name: str, sensor: Sensor, size: tuple[int, int]) -> Camera:
     """A camera of the scene; a detector's picture is cut to its own pixels, so that each is as large as it has them."""
-    camera = station_camera(scene, "hospital" if name == "behind" else name)
+    camera = station_camera(scene, "hospital" if name in MIRRORED else name)
     if sensor.detector is not None:
         field = min(sensor.horizontal_field_of_view * size[0] / sensor.size[0], 90.0)
-        return replace(camera, horizontal_field_of_view=field)
-    if name != "behind":
-        return camera
+        camera = replace(camera, horizontal_field_of_view=field)
+    camera = _mirrored(camera) if name in MIRRORED else camera
+    return replace(camera, pitch=0.0) if name == "into the sun" else camera
+
+
+def _mirrored(camera: Camera) -> Camera:
+    """The camera on the other side of the place on the ground that it looks at."""
     forward, _, _ = camera.axes()
     target = camera.position - forward * camera.position[2] / forward[2]
-    mirrored = 2.0 * target - camera.position
-    mirrored[2] = camera.position[2]
-    return look_at(mirrored, target, camera.horizontal_field_of_view)
+    across = 2.0 * target - camera.position
+    across[2] = camera.position[2]
+    return look_at(across, target, camera.horizontal_field_of_view)
 
 
 def _pair(case: Case, sensor: Sensor, on: Picture, off: Picture) -> Pair:

@@ -36,7 +36,7 @@ def _snowy(weather: Weather) -> Weather:
 
 
 Change = Callable[[Weather], Weather]
-SKIES_OF_DAYS: Mapping[str, tuple[date, Change, str]] = {
+DAYS: Mapping[str, tuple[date, Change, str]] = {
     "winter": (WINTER, _as_it_is, "7 February 1976, clear, cold and windy"),
     "summer": (SUMMER, _as_it_is, "3 September 1976, warm, overcast, still"),
     "fall": (FALL, _as_it_is, "7 October 1976, mild, partly cloudy"),
@@ -48,5 +48,5 @@ SKIES_OF_DAYS: Mapping[str, tuple[date, Change, str]] = {
 
 def study_weather(name: str) -> tuple[Weather, date, str]:
     """Weather, image day and words of a day by its name; KeyError for one that is none."""
-    day, change, words = SKIES_OF_DAYS[name]
+    day, change, words = DAYS[name]
     return change(read_weather(day.isoformat())), day, words
