@@ -14,7 +14,7 @@ from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
-from sensorsim.tables.history import solve_histories
+from sensorsim.tables.history import wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
@@ -24,6 +24,7 @@ from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.lead_in import lead_in_of
+from sensorsim.thermal.natural import melting_depth, surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -105,21 +106,29 @@ class _Bake:
         """Reflectances (r,) that are solved."""
         return np.asarray(self.scope.reflectances, dtype=np.float64)
 
+    def cost(self, wall: WallType) -> tuple[bool, float]:
+        """By which plain wall types are sorted so that no thread is left with a dear one at the end."""
+        return melting_depth(wall) > 0.0, sum(layer.thickness for layer in wall.layers)
+
     def solve(self, wall: WallType) -> _Solved:
         """March one plain wall type; orientations that no wall type needs of it are NaN."""
         needed, whole = self.scope.of_part(self.wall_types, wall), self.exposure
         part = Exposure(
             normal=whole.normal[needed], irradiance=whole.irradiance[:, needed], longwave=whole.longwave[:, needed]
         )
-        solved = solve_histories(
-            self.environment, part, wall, self.reflectances, self.record, settings=self.settings, plan=self.plan
-        )
+        own = self.settings.lead_in_days is None
+        outside = surface_boundary(self.environment, part, wall, correlation=self.settings.convection, plan=self.plan)
+        solved = wall_history(
+            self.environment, outside, wall, 1.0 - self.reflectances, self.record, plan=self.plan,
+            lead_in=lead_in_of(wall, self.environment, own=own), cell_size=self.settings.cell_size,
+            stride=self.settings.lead_in_stride,
+        )  # fmt: skip
         temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
         temperature[:, needed] = solved
         if self.sources is None:
             return _Solved(temperature=temperature, weight=None)
         response = sun_response(
-            self.environment, self.exposure, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
+            self.environment, outside, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
             first=self.sources.first, settings=self.settings, plan=self.plan,
         )  # fmt: skip
         return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
@@ -161,8 +170,9 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
     plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, _Solved] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        for wall, history in zip(plain, pool.map(bake.solve, plain), strict=True):
-            solved[wall] = history
+        tasks = {wall: pool.submit(bake.solve, wall) for wall in sorted(plain, key=bake.cost, reverse=True)}
+        for wall in plain:
+            solved[wall] = tasks[wall].result()
             if progress is not None:
                 progress(wall.name, len(solved), len(plain))
         return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))

@@ -51,7 +51,7 @@ class BakeSettings:
     slice_interval: float = 300.0  # [s] between the times that are kept
     precision: str = "float32"  # of the numbers that are kept, one of PRECISIONS
     lead_in_days: float | None = None  # before the image day; None: by the walls' own time constants, see `lead_in`
-    lead_in_stride: int = 3  # steps that are joined to one in the lead-in
+    lead_in_stride: int = 6  # steps that are joined to one in the lead-in
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
     exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
