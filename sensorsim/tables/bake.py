@@ -10,7 +10,6 @@ import numpy as np
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
-from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
@@ -20,6 +19,7 @@ from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflecta
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.tables.slices import kept_samples
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
@@ -50,7 +50,7 @@ def bake_tables(
     own = settings.lead_in_days is None
     begin = lead_in_of(ground, environment, own=own)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
-    record = _slices(environment, settings)
+    record = kept_samples(environment, settings)
     sources = _sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None
     bake = _Bake(
         environment=environment,
@@ -213,13 +213,3 @@ def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], set
         settings=settings,
         lead_in=(),
     )
-
-
-def _slices(environment: Environment, settings: BakeSettings) -> IntArray:
-    """Samples from midnight to midnight of the image day that are kept."""
-    stride = settings.slice_interval / environment.step
-    if round(stride) < 1 or abs(stride - round(stride)) > 1e-9:
-        problem = f"no multiple of the environment's step of {environment.step:g} s"
-        raise InputError("bake settings", "slice_interval", settings.slice_interval, problem, "give both one step")
-    count = round(SECONDS_PER_DAY / settings.slice_interval)
-    return np.asarray(environment.image_window.start + np.arange(count + 1) * round(stride))
