@@ -111,13 +111,14 @@ def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
 def test_shade_at_a_standard_orientation_and_solved_reflectance_is_the_full_solve() -> None:
     """Nothing counted twice or lost: orientations are kept by the spline, reflectances by the quadratic."""
     normal = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+    octahedral = replace(SETTINGS, orientations="octahedron66")  # has these three among its corners
     mixed = load_catalogue().wall_type(30, "heated")
     surfaces = Surfaces(
         wall_types=(*wall_types(), mixed), normal=normal, reflectance=np.array(SETTINGS.reflectances),
         time_of_day=np.array([0.0, 36000.0, 43200.0, 61200.0]),
     )  # fmt: skip
-    solved = full_solve(environment(), surfaces, ground=wall_types()[3], settings=SETTINGS)
-    baked = bake_tables(environment(), surfaces.wall_types, ground=wall_types()[3], settings=SETTINGS)
+    solved = full_solve(environment(), surfaces, ground=wall_types()[3], settings=octahedral)
+    baked = bake_tables(environment(), surfaces.wall_types, ground=wall_types()[3], settings=octahedral)
     errors = fit_error(baked, surfaces, solved)
     assert max(np.abs(error).max() for error in errors[:4]) < 2e-4
     assert np.abs(errors[4]).max() < 0.05  # its parts are solved at reflectances of their own
@@ -126,9 +127,7 @@ def test_shade_at_a_standard_orientation_and_solved_reflectance_is_the_full_solv
 def test_spline_keeps_what_it_knows_and_reproduces_its_own_forms() -> None:
     """Quadratics of the normal, the cone at the zenith and the edge at the horizon come through exactly."""
     matrix = spline_matrix("octahedron66", "octahedron578")
-    known, dense = tables().settings.orientations, tables().orientations
-    assert known == "octahedron66"
-    solved = orientation_set(known).normal
+    solved, dense = orientation_set("octahedron66").normal, orientation_set("octahedron578")
     for form in (lambda n: n[:, 0] * n[:, 2], lambda n: np.hypot(n[:, 0], n[:, 1]), lambda n: np.abs(n[:, 2])):
         np.testing.assert_allclose(matrix @ form(solved), form(dense.normal), atol=1e-9)
     values = np.random.default_rng(1).normal(size=66)

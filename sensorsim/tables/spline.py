@@ -17,10 +17,11 @@ FEW = 26  # orientations, below which only what is constant and linear is taken 
 def dense_layout(solved: str) -> str:
     """The set of orientations, so many that straight lines between them do, to which values at `solved` are led.
 
-    It holds all of `solved`: corners of a dense octahedron are also those of a cube, its edges' and faces' middles.
+    Octahedra have the horizon among the sides of their triangles, where walls face and values have an edge; dense ones
+    hold all of the sparser ones, and the corners of a cube, its edges' and faces' middles.
     """
-    if solved.startswith("icosphere"):
-        return solved if solved == "icosphere2562" else "icosphere642"
+    if solved in ("icosphere642", "icosphere2562"):
+        return solved
     return "octahedron1026" if solved in ("octahedron258", "octahedron1026") else "octahedron578"
 
 
