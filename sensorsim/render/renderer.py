@@ -32,6 +32,7 @@ from sensorsim.sensor import (
     AutoGain,
     DisplaySettings,
     Sensor,
+    column_places,
     exposure_for,
     follows_in_time,
     sensor_parts,
@@ -233,7 +234,7 @@ class Renderer:
         self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
         self._draw(plan)
-        planes = self._read(wanted, plan)
+        planes = self._read(camera, wanted, plan)
         self._detect(camera, planes, frame)
         seen = exposed(planes)
         settings = self._gain.window(display, seen)
@@ -256,23 +257,31 @@ class Renderer:
         self._moment.bind()
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
-    def _read(self, wanted: set[str], plan: EffectPlan) -> dict[str, NDArray[Any]]:
+    def _read(self, camera: Camera, wanted: set[str], plan: EffectPlan) -> dict[str, NDArray[Any]]:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
-        middle = slice(self.samples // 2, None, self.samples)  # each pixel shows what its middle sees
+        places = self._places(camera)
         planes: dict[str, NDArray[Any]] = {
-            name: np.ascontiguousarray(quantities[middle, middle, component])
+            name: np.ascontiguousarray(quantities[*places, component])
             for component, name in enumerate(QUANTITIES)
             if name != "surface_temperature" or plan.has("temperature")
         }
-        surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
+        surface = np.ascontiguousarray(self._target.read("id")[*places, 0])
         planes["surface_id"] = surface
         feature = np.append(self.world.scene.surfaces.feature, -1)  # of what is no surface of the scene: none
         planes["feature"] = feature[np.where(surface < 0, feature.size - 1, np.minimum(surface, feature.size - 1))]
         if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes
+
+    def _places(self, camera: Camera) -> tuple[slice, slice | NDArray[np.int64]]:
+        """Rows and columns of the drawn picture that the pixels look at: each shows what its middle sees."""
+        middle = slice(self.samples // 2, None, self.samples)
+        if self._chain is None or not self.sensor.scan.equal_angle:
+            return middle, middle
+        field = float(np.radians(camera.horizontal_field_of_view))
+        return middle, column_places(self.size[0], self.samples, field, equal_angle=True).astype(np.int64)
 
     def _detect(self, camera: Camera, planes: dict[str, NDArray[Any]], frame: int) -> None:
         """What the detector reports of the frame of that number, as plane `signal` and as the picture on display."""
