@@ -9,6 +9,7 @@ import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -57,8 +58,8 @@ class RowChain:
         width, height = size
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
-        self.light = np.zeros((height * samples, width * samples), np.float32)
-        self.marked = np.zeros(self.light.shape, np.bool_)
+        self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
+        self.marked = np.zeros(self.light.shape, np.bool_)  # where no surface is seen
         self.focus, self.signal = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
@@ -71,15 +72,11 @@ class RowChain:
         """End the threads."""
         self.pool.shutdown()
 
-    def run(self, stored: Single, field: float, frame: int) -> Single:
-        """What the sensor reports [W m-2 sr-1] of a picture over a horizontal field [rad], as frame of that number.
+    def run(self, field: float, frame: int) -> Single:
+        """What the sensor reports [W m-2 sr-1] of its `light`, over a horizontal field [rad], as frame of that number.
 
-        stored (height samples, width samples): radiance from the lowest row up, its sign set where no surface is seen.
-        Raises NumericsError for a picture that is not finite.
+        Raises NumericsError for light that is not finite.
         """
-        self._each(
-            len(stored), lambda first, last: row_kernels.split_marks(stored, first, last, self.light, self.marked)
-        )
         if not math.isfinite(float(self.light.sum())):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
         if self.sensor.detector is None:
@@ -87,7 +84,7 @@ class RowChain:
             return self.signal
         self._look_through(field)
         row, column, places = self.kernel
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
                 self.light, row, column, places, self.samples, first, last, self.focus
@@ -115,16 +112,19 @@ class RowChain:
             curve = tone_curve(settings.tone, settings.gamma, seen, low, high).astype(np.float32)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.show(self.signal, curve, window, black_hot, first, last, codes),
         )
         return codes
 
-    def _each(self, rows: int, work: Callable[[int, int], Any]) -> None:
-        """Do the work on all rows, shared by the threads."""
+    def each(self, rows: int, work: Callable[[int, int], Any]) -> None:
+        """Do the work on all rows, shared by the threads; the caller's own takes the last part."""
         edges = [rows * part // self.threads for part in range(self.threads + 1)]
-        list(self.pool.map(work, edges[:-1], edges[1:]))
+        others = [self.pool.submit(work, *pair) for pair in pairwise(edges[:-1])]
+        work(*edges[-2:])
+        for other in others:
+            other.result()
 
     def _look_through(self, field: float) -> None:
         """Kernel and columns for a horizontal field [rad]."""
@@ -166,7 +166,7 @@ class RowChain:
         values, part = rows.astype(np.float32), share.astype(np.float32)
         added = np.zeros(light.shape, np.float32)
         numbers = np.array([constant, factor], np.float32)
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.add_blocks(light, values, left, part, numbers, first, last, added),
         )
@@ -178,7 +178,7 @@ class RowChain:
         numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
         packed, noise = np.array(numbers, np.float32), frame_noise(sensor, self.size, frame)
         row, line, seed = noise.row.astype(np.float32), noise.line.astype(np.float32), stream_seed(sensor, "tvh")
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.report(
                 light, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.signal
