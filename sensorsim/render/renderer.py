@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from sensorsim.effects import EFFECTS, EVERYTHING, SURFACE, EffectPlan, Ledger
+from sensorsim.effects import EFFECTS, SURFACE, EffectPlan, Ledger
 from sensorsim.environment import EnvironmentSample
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, mesh_buffers, render_target
@@ -22,9 +22,10 @@ from sensorsim.render.illumination import Illumination, illuminate, seen_with
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS
 from sensorsim.render.picture import QUANTITIES, Picture, exposed
-from sensorsim.render.quick_road import QuickRoad
+from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
+from sensorsim.render.surface_table import surface_rows
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
@@ -104,24 +105,24 @@ class Renderer:
         wanted = self._wanted(planes)
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
-        quick = wanted == {"display"} and self._may_be_quick
-        ledger = None if quick else self.ledger(camera, time_of_day, illumination)
-        plan = EVERYTHING if ledger is None else ledger.plan
-        illumination = seen_with(illumination, plan)
+        chosen = self.sensor.display if display is None else display
+        self.watch("moment")
         with self.ctx:  # another renderer's context may have become the current one
             self._begin(frame, time_of_day)
-            self._solids.solids = solids
-            self._moment.set(time_of_day, illumination, plan)
-            self._set_view(camera, illumination)
-            self.watch("moment")
-            chosen = self.sensor.display if display is None else display
-            if quick:
-                found, settings = self._show_quickly(camera, chosen, frame)
+            road, ledger = self._quick_road() if wanted == {"display"} else None, None
+            if road is not None:
+                codes, settings = road.show(camera, time_of_day, illumination, chosen, frame, solids, self.watch)
+                found: dict[str, NDArray[Any]] = {"display": codes}
             else:
+                ledger = self.ledger(camera, time_of_day, illumination)
+                plan, illumination = ledger.plan, seen_with(illumination, ledger.plan)
+                self._solids.solids = solids
+                self._moment.set(time_of_day, illumination, plan)
+                self._set_view(camera, illumination)
                 found, settings = self._show_all(camera, chosen, frame, wanted, plan)
         return Picture(
             planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
-            ledger=ledger, count_step=None if quick or self._chain is None else self._chain.step,
+            ledger=ledger, count_step=None if road or self._chain is None else self._chain.step,
         )  # fmt: skip
 
     def ledger(self, camera: Camera, time_of_day: float, illumination: Illumination) -> Ledger:
@@ -213,22 +214,18 @@ class Renderer:
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
 
-    def _show_quickly(
-        self, camera: Camera, display: DisplaySettings, frame: int
-    ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
-        if self._quick is None:
-            self._quick = QuickRoad(
-                self.ctx,
-                self.world,
-                self.sensor,
-                self.size,
-                self._moment.generated,
-                samples=self.samples,
-                energy=self.blur_energy,
-                gain=self._gain,
-            )
-        codes, settings = self._quick.show(camera, display, frame, self._moment.number, self.watch, self._solids.draw)
-        return {"display": codes}, settings
+    def _quick_road(self) -> QuickRoad | None:
+        """The road of frames for display alone; None where an effect is refused or a surface is not flat."""
+        if self._quick is None and self._may_be_quick:
+            planes = quick_planes(self.world)
+            self._may_be_quick = planes is not None
+            if planes is not None:
+                count = self.world.scene.surfaces.area.size
+                self._quick = QuickRoad(
+                    self.ctx, self.world, self.sensor, self.size, surface_rows(self._moment.records, count), planes,
+                    self.band_table, self._gain, samples=self.samples, energy=self.blur_energy,
+                )  # fmt: skip
+        return self._quick
 
     def _show_all(
         self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan

@@ -9,6 +9,7 @@ import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -59,8 +60,8 @@ class RowChain:
         width, height = size
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
-        self.light = np.zeros((height * samples, width * samples), np.float32)
-        self.marked = np.zeros(self.light.shape, np.bool_)
+        self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
+        self.marked = np.zeros(self.light.shape, np.bool_)  # where no surface is seen
         self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
         self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
@@ -75,15 +76,11 @@ class RowChain:
         """End the threads."""
         self.pool.shutdown()
 
-    def run(self, stored: Single, field: float, frame: int) -> Single:
-        """What the sensor reports [W m-2 sr-1] of a picture over a horizontal field [rad], as frame of that number.
+    def run(self, field: float, frame: int) -> Single:
+        """What the sensor reports [W m-2 sr-1] of its `light`, over a horizontal field [rad], as frame of that number.
 
-        stored (height samples, width samples): radiance from the lowest row up, its sign set where no surface is seen.
-        Raises NumericsError for a picture that is not finite.
+        Raises NumericsError for light that is not finite.
         """
-        self._each(
-            len(stored), lambda first, last: row_kernels.split_marks(stored, first, last, self.light, self.marked)
-        )
         if not math.isfinite(float(self.light.sum())):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
         if self.sensor.detector is None:
@@ -91,7 +88,7 @@ class RowChain:
             return self.signal
         self._look_through(field)
         row, column, places = self.kernel
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
                 self.light, row, column, places, self.samples, first, last, self.focus
@@ -111,9 +108,9 @@ class RowChain:
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
         middle = slice(self.samples // 2, None, self.samples)
-        step = self.samples if picture.shape != self.size[::-1] else 1
-        here = picture[step // 2 :: step, step // 2 :: step]
-        return sampled_surfaces(here, ~self.marked[middle, middle])
+        columns = self.kernel[2] if self.sensor.scan.equal_angle else middle  # as the mirror places them
+        here = picture[middle][:, columns] if picture is self.light else picture
+        return sampled_surfaces(here, ~self.marked[middle][:, columns])
 
     def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
@@ -124,16 +121,19 @@ class RowChain:
             signal = enhance_detail(signal, 0.5 * (low + high), high - low, settings.detail)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.show(signal, bent, window, black_hot, first, last, codes),
         )
         return codes
 
-    def _each(self, rows: int, work: Callable[[int, int], Any]) -> None:
-        """Do the work on all rows, shared by the threads."""
+    def each(self, rows: int, work: Callable[[int, int], Any]) -> None:
+        """Do the work on all rows, shared by the threads; the caller's own takes the last part."""
         edges = [rows * part // self.threads for part in range(self.threads + 1)]
-        list(self.pool.map(work, edges[:-1], edges[1:]))
+        others = [self.pool.submit(work, *pair) for pair in pairwise(edges[:-1])]
+        work(*edges[-2:])
+        for other in others:
+            other.result()
 
     def _look_through(self, field: float) -> None:
         """Kernel and columns for a horizontal field [rad]."""
@@ -174,7 +174,7 @@ class RowChain:
         values, part = rows.astype(np.float32), share.astype(np.float32)
         added = np.zeros(light.shape, np.float32)
         numbers = np.array([constant, factor], np.float32)
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.add_blocks(light, values, left, part, numbers, first, last, added),
         )
@@ -186,7 +186,7 @@ class RowChain:
         numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
         packed, noise = np.array(numbers, np.float32), frame_noise(sensor, self.size, frame)
         row, line, seed = noise.row.astype(np.float32), noise.line.astype(np.float32), stream_seed(sensor, "tvh")
-        self._each(
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.report(
                 light, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.reported

@@ -14,17 +14,6 @@ from numpy.typing import NDArray
 Array = NDArray[Any]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def split_marks(stored: Array, first: int, last: int, light: Array, marked: Array) -> None:
-    """Light (height, width) and where its sign was set, of a picture stored from its lowest row up."""
-    height, width = stored.shape
-    for y in range(first, last):
-        source, target, mark = stored[height - 1 - y], light[y], marked[y]
-        for x in range(width):
-            target[x] = abs(source[x])
-            mark[x] = source[x] < 0.0
-
-
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def blur(
     picture: Array, row: Array, column: Array, places: Array, samples: int, first: int, last: int, out: Array
