@@ -71,8 +71,8 @@ def test_independent_package_recovers_the_noise_of_a_sequence() -> None:
     sensor = dataclasses.replace(plain, noise=noise, detector=detector)
     light = float(band_radiance(sensor.band, 300.0))
     chain = RowChain(sensor, SIZE, energy=0.95)
-    picture = np.full((SIZE[1], SIZE[0]), light, np.float32)
-    cube = np.stack([chain.run(picture, FIELD, frame).astype(np.float64) for frame in range(frames)])
+    chain.light[:] = light
+    cube = np.stack([chain.run(FIELD, frame).astype(np.float64) for frame in range(frames)])
     chain.release()
     variance = noise3d.get_all_3d_corrected_var_matrix(cube / float(sensitivity(sensor).deviation(light)))
     recovered = dict(zip(NAMES, np.sqrt(variance[:7]).tolist(), strict=True))
