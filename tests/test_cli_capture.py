@@ -3,6 +3,7 @@
 import hashlib
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import imageio.v3 as imageio
@@ -14,7 +15,7 @@ from sensorsim.cli import main
 from sensorsim.errors import InputError
 from sensorsim.frames.difference import compare_frames, difference
 from sensorsim.frames.frame import Plane
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path, warm_up
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks, warm_up
 from sensorsim.frames.video import write_video
 from sensorsim.render import Renderer, look_at
 from sensorsim.sensor import DisplaySettings, load_sensor
@@ -43,8 +44,17 @@ def draw(folder: Path, name: str, numbers: range = range(4), **options: object) 
 
 
 def test_blocks_cover_every_frame_once() -> None:
-    assert [number for block in blocks(75) for number in block] == list(range(75))
-    assert blocks(0) == []
+    shots = tuple(Shot(number=k, time_of_day=k / 30.0, camera=VIEWS[0]) for k in range(75))
+    for display, size in (
+        (DisplaySettings(), 32),
+        (DisplaySettings(settle=0.1), 48),
+        (DisplaySettings(settle=9.0), 75),
+    ):
+        sensor = replace(load_sensor("flir"), display=display)
+        blocks = sequence_blocks(sensor, shots)
+        assert [number for block in blocks for number in block] == list(range(75))
+        assert len(blocks[0]) == size
+        assert sequence_blocks(sensor, ()) == []
 
 
 @pytest.mark.parametrize("name", ["flir", "uncooled"])
