@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
-from sensorsim.sensor import row_kernels
+from sensorsim.sensor import detail_kernels, row_kernels
 from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
-from sensorsim.sensor.detail import enhance_detail
+from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
 from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places
@@ -70,6 +70,7 @@ class RowChain:
             self.look, self.corrected_at = sensitivity(sensor), correction_radiance(sensor)
             self.pattern = np.ascontiguousarray(np.moveaxis(fixed_pattern(sensor, size)[..., :3], 2, 0), np.float32)
             self.deviates = deviate_table().astype(np.float32)
+            self.woven = np.zeros((height, width), np.float32)
             self.neighbours = living_neighbours(self.pattern[2]) if sensor.noise.replaced else ()
 
     def release(self) -> None:
@@ -116,9 +117,7 @@ class RowChain:
         """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
         low, high = window_limits(settings)
         bent = np.zeros(0, np.float32) if curve is None else curve.astype(np.float32)
-        signal = self.signal
-        if settings.detail != 1.0:
-            signal = enhance_detail(signal, 0.5 * (low + high), high - low, settings.detail)
+        signal = self.signal if settings.detail == 1.0 else self._enhanced(low, high, settings.detail)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
         self.each(
@@ -126,6 +125,23 @@ class RowChain:
             lambda first, last: row_kernels.show(signal, bent, window, black_hot, first, last, codes),
         )
         return codes
+
+    def _enhanced(self, low: float, high: float, gain: float) -> Single:
+        """The last report with that gain of its detail, for a window from `low` to `high` [W m-2 sr-1]."""
+        share = (self.signal - np.float32(0.5 * (low + high))) / np.float32(high - low)
+        square, edge, more = share * share, np.array([EDGE], np.float32), np.array([(gain - 1.0) * (high - low)], "f4")
+        slope, offset, out = np.zeros_like(share), np.zeros_like(share), np.zeros_like(share)
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.fit_base(share, square, DETAIL_REACH, edge, first, last, slope, offset),
+        )
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.stretch_detail(
+                self.signal, share, slope, offset, DETAIL_REACH, more, first, last, out
+            ),
+        )
+        return out
 
     def each(self, rows: int, work: Callable[[int, int], Any]) -> None:
         """Do the work on all rows, shared by the threads; the caller's own takes the last part."""
@@ -199,7 +215,8 @@ class RowChain:
         if self.neighbours:
             shown = replace_dead(shown, self.neighbours)
         if not is_plain(scan):
-            shown = weave(self.signal, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
+            weave(self.woven, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
+            shown = self.woven
         self.signal, self.last_frame = shown, frame
 
     def _follows(self, frame: int) -> bool:
