@@ -30,6 +30,6 @@ def source_rows(scan: Scan, rows: int, frame: int, *, follows: bool) -> NDArray[
 
 
 def weave(shown: NDArray[Any], reported: NDArray[Any], rows: NDArray[np.int64]) -> None:
-    """Bring a report into the picture shown, both (height, width), by `source_rows`; twin: shaders/sensor/raster.frag."""
+    """Bring a report into the picture shown, both (height, width); the twin of shaders/sensor/raster.frag."""
     fresh = rows != HELD
     shown[fresh] = reported[rows[fresh]]
