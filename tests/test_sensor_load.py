@@ -17,8 +17,8 @@ SENSOR = {
 BAND = {"name": '"probe"', "wavelength_um": "[8, 10.5, 12]", "response": "[0, 1, 0.5]"}
 
 
-def write_sensor(folder, *, sensor=None, band=None, display=None):
-    tables = {"": {**SENSOR, **(sensor or {})}, "band": {**BAND, **(band or {})}, "display": display or {}}
+def write_sensor(folder, *, sensor=None, band=None, **others):
+    tables = {"": {**SENSOR, **(sensor or {})}, "band": {**BAND, **(band or {})}, "display": {}, **others}
     lines = []
     for table, entries in tables.items():
         if table:

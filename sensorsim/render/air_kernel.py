@@ -32,15 +32,14 @@ def decay(x: Any) -> Any:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def through_air(start: Array, step: Array, source: Array, away: Array, terms: Array, sun: Array, seen: Array) -> None:
-    """Radiance `seen` (width,) of sources at distances `away` along rays, start + x step, none of unit length.
+def through_air(ray: Array, along: Array, source: Array, away: Array, terms: Array, sun: Array, seen: Array) -> None:
+    """Radiance `seen` (width,) of sources at distances `away` along rays, ray + x along, none of unit length.
 
     terms (k, 6): extinction at the camera's height, weight, inverse scale height, source, its slope, source by the
     beam; sun (4,): direction towards it and the asymmetry of the haze.
     """
     width = source.size
     reach, rise, forward = np.zeros(width, np.float32), np.zeros(width, np.float32), np.zeros(width, np.float32)
-    ray, along = start.astype(np.float32), step.astype(np.float32)
     for x in range(width):
         place = np.float32(x)
         east, north, up = ray[0] + place * along[0], ray[1] + place * along[1], ray[2] + place * along[2]
