@@ -87,6 +87,7 @@ def request_settings(
     return {
         "sensorsim": __version__,
         "scene": {"name": scene.name, "level": scene.level, "files": [path.name for path in scene.files]},
+        "detail_pixels": None if scene.lineage is None else renderer.detail.pixels,
         "weather": {"name": world.weather.name, "file": world.weather.file.name},
         "warnings": list(world.warnings),
         "day": world.tables.day.isoformat(),

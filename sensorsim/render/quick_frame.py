@@ -6,6 +6,7 @@ is written wherever it was drawn first, so near tiles and high features are draw
 """
 
 import math
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -26,20 +27,28 @@ class QuickFrame:
     """Draws the numbers of the surfaces in a world's pictures of one size, in the renderer's context."""
 
     def __init__(self, ctx: moderngl.Context, world: World, size: tuple[int, int]) -> None:
-        mesh = world.scene.mesh
+        mesh = self.mesh = world.scene.mesh
         self.ctx, self.first = ctx, world.scene.surfaces.area.size
         self.box = mesh.position.min(axis=0), mesh.position.max(axis=0)
         self.target = render_target(ctx, size, {"number": "R32F"}, depth=True)
         self.stored = np.zeros((size[1], size[0]), np.float32)
         self.block = ctx.buffer(reserve=VIEW_FRAME.dtype.itemsize)
-        self.tiles = build_tiles(mesh, np.zeros(len(mesh.triangle), np.int64), _tops(world))
-        buffers = mesh_buffers(
+        self.tops = _tops(world)
+        self.tiles = build_tiles(mesh, np.zeros(len(mesh.triangle), np.int64), self.tops)
+        buffers = self.buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
         )
         self.surfaces = Pass(
             ctx, "scene/number.vert", "scene/number.frag", blocks=(VIEW_FRAME,), samplers=(), generated={},
             mesh=buffers,
         )  # fmt: skip
+
+    def show_only(self, triangles: NDArray[np.bool_]) -> None:
+        """Draw these of the mesh's triangles (t,) from now on."""
+        some = replace(self.mesh, triangle=self.mesh.triangle[triangles])
+        self.tiles = build_tiles(some, np.zeros(len(some.triangle), np.int64), self.tops[triangles])
+        assert self.buffers.index is not None
+        self.buffers.index.write(self.tiles.triangle)
 
     def draw(self, camera: Camera, solids: Solids | None) -> None:
         """Draw what the camera sees into the target, and what stands among the surfaces."""

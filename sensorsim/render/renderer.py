@@ -16,12 +16,14 @@ from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
 from sensorsim.render.blocks import AIR, VIEW_FRAME
 from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.detail import DetailRule
 from sensorsim.render.display_stage import DisplayStage
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
 from sensorsim.render.illumination import Illumination, illuminate, seen_with
+from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS
-from sensorsim.render.picture import QUANTITIES, Picture, exposed
+from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
 from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
@@ -49,8 +51,12 @@ class Renderer:
     def __init__(
         self, world: World, sensor: Sensor, *, size: tuple[int, int] | None = None, backend: str = "auto",
         samples: int = 1, blur_energy: float = 0.99, atmosphere: str = DEFAULT_ATMOSPHERE,
+        detail: DetailRule | None = None,
     ) -> None:  # fmt: skip
-        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces."""
+        """`atmosphere`: 'standard', 'report', 'modtran', or 'none' for the radiance that leaves the surfaces.
+
+        `detail` chooses among the levels of a scene that holds several.
+        """
         self.atmosphere = check_atmosphere(atmosphere)
         if samples not in (1, 3, 5, 7):
             raise InputError("renderer", "samples", samples, "not 1, 3, 5 or 7", "give an odd number per pixel's side")
@@ -60,8 +66,10 @@ class Renderer:
         self.sensor = sensor
         self.size = sensor.size if size is None else size
         self.samples, self.blur_energy = samples, blur_energy
+        self.detail = DetailRule() if detail is None else detail
         self.band_table = build_band_table(sensor.band) if sensor.mode == "emissive" else None
-        self.watch: Callable[[str], None] = _nothing  # told of each stage of a frame for display alone, once it is over
+        # Told of each stage of a frame for display alone, once it is over:
+        self.watch: Callable[[str], None] = lambda _stage: None
         self._quick: QuickRoad | None = None
         self._gain, self._last_time = AutoGain(1.0 / sensor.scan.frame_rate), 0.0
         self._own: tuple[float, Illumination] | None = None  # surroundings that were found last
@@ -102,7 +110,7 @@ class Renderer:
         no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the
         moment. `solids` stand among the surfaces; their ids follow on those of the scene.
         """
-        wanted = self._wanted(planes)
+        wanted = wanted_planes(self.sensor, planes)
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
         chosen = self.sensor.display if display is None else display
@@ -110,6 +118,7 @@ class Renderer:
         with self.ctx:  # another renderer's context may have become the current one
             self._begin(frame, time_of_day)
             road, ledger = self._quick_road() if wanted == {"display"} else None, None
+            self._level.look(camera, None if self._quick is None else self._quick.frame)
             if road is not None:
                 codes, settings = road.show(camera, time_of_day, illumination, chosen, frame, solids, self.watch)
                 found: dict[str, NDArray[Any]] = {"display": codes}
@@ -145,17 +154,6 @@ class Renderer:
             atmosphere=self.atmosphere, camera_height=camera_height,
         )  # fmt: skip
 
-    def _wanted(self, planes: Collection[str] | None) -> set[str]:
-        there = {*QUANTITIES, "surface_id", "feature", "display"}
-        there |= {"signal"} if self.sensor.detector is not None else set()
-        there |= {"counts"} if self.sensor.has_counts else set()
-        there |= {"apparent_temperature"} if self.band_table is not None else set()
-        unknown = set() if planes is None else set(planes) - there
-        if unknown or (planes is not None and not planes):
-            where, problem = f"sensor {self.sensor.name!r}", "not what its frames have"
-            raise InputError(where, "planes", sorted(unknown), problem, f"use {', '.join(sorted(there))}")
-        return there if planes is None else set(planes)
-
     def _surroundings(self, time_of_day: float, height: float) -> Illumination:
         """As `illuminate`, or what was found last where only a camera moved that the air does not mind."""
         if self._own is None or self._own[0] != time_of_day or self.atmosphere == "modtran":
@@ -168,6 +166,7 @@ class Renderer:
         self._moment = MomentTables(ctx, self.world, self.band_table)
         vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
         buffers, emissive = mesh_buffers(ctx, vertices, mesh.triangle), self.band_table is not None
+        self._level = LevelOfDetail(self.world.scene, self.size, self.detail, buffers.index)
         self._programs = Programs(ctx, buffers, self._moment.generated, emissive=emissive)
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
@@ -291,7 +290,3 @@ class Renderer:
         planes["signal"] = self._chain.read(self._chain.output)
         if self.sensor.has_counts:
             planes["counts"] = np.rint(planes["signal"] / self._chain.step).astype(np.uint16)
-
-
-def _nothing(_stage: str) -> None:
-    """Nobody watches."""

@@ -14,7 +14,8 @@ class Scan:
     """Pattern and electronics; zero stands for what a pattern does not have.
 
     staring: every element has its pixel. parallel: a column of detectors sweeps along the rows, `channels` of them
-    over the picture's height, again and again a line farther where there are more rows than channels. raster: one spot after the other, as in a tube.
+    over the picture's height, again and again a line farther where there are more rows than channels. raster: one spot
+    after the other, as in a tube.
     """
 
     pattern: Pattern = "staring"
