@@ -59,7 +59,9 @@ def render(
         str | None, typer.Option(help="winter, summer, fall or a CSV file; by date if left out.")
     ] = None,
     planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
-    plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
+    plane_format: Annotated[
+        str, typer.Option(help="exr, npy, or png and tiff of 16 bits: centikelvin, counts.")
+    ] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
