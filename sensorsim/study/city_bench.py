@@ -88,7 +88,7 @@ def run_city(
     renderer = _timed(build, "renderer", lambda: Renderer(world, sensor, size=size, backend=backend))
     triangles = len(scene.mesh.triangle)
     tiles = build_tiles(scene.mesh, np.zeros(triangles, np.int64), np.zeros(triangles))
-    views = {}
+    views = dict[str, CityView]()
     with renderer:
         for name, camera in city_views(buildings).items():
             seen = visible_tiles(tiles, camera, size)
