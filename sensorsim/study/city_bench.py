@@ -13,7 +13,7 @@ import numpy as np
 
 from sensorsim.environment import read_weather
 from sensorsim.render import Camera, Renderer, build_world, look_at
-from sensorsim.render.tiles import build_tiles, visible_tiles
+from sensorsim.render.tiles import Tiles, build_tiles, visible_tiles
 from sensorsim.scene import load_scene
 from sensorsim.sensor import Sensor
 from sensorsim.study.bench_timing import measure
@@ -88,20 +88,10 @@ def run_city(
     renderer = _timed(build, "renderer", lambda: Renderer(world, sensor, size=size, backend=backend))
     triangles = len(scene.mesh.triangle)
     tiles = build_tiles(scene.mesh, np.zeros(triangles, np.int64), np.zeros(triangles))
-    views = dict[str, CityView]()
     with renderer:
-        for name, camera in city_views(buildings).items():
-            seen = visible_tiles(tiles, camera, size)
-            draw = _frame(renderer, camera)
-            if not views:
-                _timed(build, "first frame", draw)
-            taken = measure({name: draw}, frames)[name]
-            views[name] = CityView(
-                triangles=int(np.sum(tiles.edge[seen + 1] - tiles.edge[seen])),
-                tiles=int(seen.size),
-                frame_ms=taken.wall,
-                processor_ms=taken.processor,
-            )
+        cameras = city_views(buildings)
+        _timed(build, "first frame", _frame(renderer, cameras["street"]))
+        views = {name: _view(renderer, camera, tiles, frames) for name, camera in cameras.items()}
         drawn_by = str(renderer.ctx.info["GL_RENDERER"])
     return CityBench(
         buildings=buildings,
@@ -122,6 +112,13 @@ def _timed(spans: dict[str, Span], name: str, make: Callable[[], Made]) -> Made:
     made = make()
     spans[name] = Span(wall=time.perf_counter() - wall, processor=time.process_time() - processor)
     return made
+
+
+def _view(renderer: Renderer, camera: Camera, tiles: Tiles, frames: int) -> CityView:
+    seen = visible_tiles(tiles, camera, renderer.size)
+    taken = measure({"frame": _frame(renderer, camera)}, frames)["frame"]
+    triangles = int(np.sum(tiles.edge[seen + 1] - tiles.edge[seen]))
+    return CityView(triangles=triangles, tiles=int(seen.size), frame_ms=taken.wall, processor_ms=taken.processor)
 
 
 def _frame(renderer: Renderer, camera: Camera) -> Callable[[], object]:
