@@ -67,7 +67,7 @@ CASES = (
     _light("snow", "snow", 13.0, "tower", "Snow makes the ground brighter than any wall, and lights walls from below."),
     _warm("exchange", "winter", 7.0, "tower",
           "Walls that stand close to others are warmer before dawn: they see each other in place of sky and ground."),
-    _warm("interior", "winter", 7.0, "hospital", "Heated walls leak: without rooms behind them they are a little colder."),
+    _warm("interior", "winter", 7.0, "hospital", "Heated walls leak: with no rooms behind them they are a bit colder."),
     _warm("reflected_sky", "winter", 7.0, "cement_plant",
           "Without what they mirror surfaces look colder by their reflectance; bare metal sheds by far the most."),
     _warm("specular", "winter", 13.0, "cement_plant",
