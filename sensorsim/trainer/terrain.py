@@ -38,12 +38,16 @@ class Terrain:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hit:
-    """Where a ray met a surface: range along it [m], position (3,) [m], outward unit normal (3,), material code."""
+    """Where a ray met a surface: range along it [m], position (3,) [m], outward unit normal (3,), material code.
+
+    entity: whose surface it is, None for the terrain.
+    """
 
     range: float
     position: FloatArray
     normal: FloatArray
     material: int
+    entity: int | None = None
 
     @property
     def height(self) -> float:
