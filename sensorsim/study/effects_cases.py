@@ -11,7 +11,7 @@ class Case:
     """One effect in one band. The scene is the hospital, level IIIB."""
 
     effect: str
-    sensor: str
+    sensor: str  # of effects_sensors
     weather: str  # of effects_weather
     hour: float
     camera: str  # of the scene, or 'behind' and 'into the sun': see effects_pairs
@@ -82,6 +82,11 @@ CASES = (
     _part("memory", "sit1977", 10.0, "The tube still holds a share of the frame before: double edges.", turn=0.3),
     _part("streaks", "flir1977", 13.0,
           "Rows that hold hot walls are darkened, to their right most; the cold sky comes to the ground's level."),
+    _part("interlace", "sit1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
+    _part("interlace", "flir1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
+    _part("raster_lines", "sit1977, coarse", 10.0, "Lines three rows high: steps along slanted edges."),
+    _part("dead_elements", "uncooled, blind", 10.0, "Black points all over, in the same places in every frame."),
+    _part("replacement", "uncooled, repaired", 10.0, "The black points are gone: their neighbours stand for them."),
     _part("halo", "sit1977", 16.5, "Light of the haze below the low sun, which saturates the tube, spills over roofs.",
           "into the sun"),
 )  # fmt: skip
