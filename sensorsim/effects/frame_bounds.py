@@ -7,6 +7,7 @@ What the air leaves of both, tau dL of tau L at least, is worth no more.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -157,12 +158,20 @@ def _radiance(table: BandTable, temperature: float) -> float:
 def _slope_at(table: BandTable, temperature: float) -> float:
     """Slope [W m-2 sr-1 K-1] of the table's piece that holds a temperature [K]; it grows with temperature."""
     piece = int(np.clip(np.searchsorted(table.temperature, temperature), 1, table.temperature.size - 1))
-    return float((np.diff(table.radiance) / np.diff(table.temperature))[piece - 1])
+    return float(
+        (table.radiance[piece] - table.radiance[piece - 1]) / (table.temperature[piece] - table.temperature[piece - 1])
+    )
 
 
 def _kelvin_per_radiance(table: BandTable, radiance: float) -> float:
     """Most kelvin [K W-1 m2 sr] that a change of that radiance [W m-2 sr-1], of any share of it or of more is worth."""
     known = max(radiance, float(table.radiance[0]))
     pieces = max(int(np.searchsorted(table.radiance, known)), 1)
+    return 1.0 / (known * float(_least_steepness(table)[pieces - 1]))
+
+
+@lru_cache(maxsize=16)
+def _least_steepness(table: BandTable) -> FloatArray:
+    """Least relative slope [K-1] of a table's pieces up to each of them."""
     steepness = np.diff(table.radiance) / np.diff(table.temperature) / table.radiance[1:]
-    return 1.0 / (known * float(steepness[:pieces].min()))
+    return np.asarray(np.minimum.accumulate(steepness))
