@@ -87,7 +87,7 @@ def run_city(
     world = _timed(build, "bake", lambda: build_world(scene, read_weather("winter"), image_day=DAY, settings=settings))
     renderer = _timed(build, "renderer", lambda: Renderer(world, sensor, size=size, backend=backend))
     triangles = len(scene.mesh.triangle)
-    tiles = build_tiles(scene.mesh, np.zeros(triangles, np.int64), np.zeros(triangles))
+    tiles = build_tiles(scene.mesh, np.zeros(triangles))
     with renderer:
         cameras = city_views(buildings)
         _timed(build, "first frame", _frame(renderer, cameras["street"]))
@@ -97,7 +97,7 @@ def run_city(
         buildings=buildings,
         surfaces=scene.surfaces.area.size,
         triangles=triangles,
-        tiles=len(tiles.kind),
+        tiles=len(tiles.is_wide),
         renderer=drawn_by,
         size=size,
         build=build,
