@@ -17,8 +17,10 @@ from sensorsim.cli.options import (
     AnyLevel,
     Backend,
     Effects,
+    Enhance,
     Preset,
     SceneName,
+    Settle,
     bake_progress,
     find_weather,
     local_day,
@@ -27,6 +29,7 @@ from sensorsim.cli.options import (
     read_moment,
     read_scene,
     read_size,
+    with_display,
 )
 from sensorsim.cli.render import read_camera
 from sensorsim.constants import SECONDS_PER_DAY
@@ -34,7 +37,7 @@ from sensorsim.effects import EffectChoice
 from sensorsim.environment import Weather
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import CameraPath, read_camera_path
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks
 from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
 from sensorsim.render.detail import DetailRule
@@ -84,6 +87,8 @@ def capture(
         str, typer.Option("--format", help="png (with planes beside it), exr, npy or tiff.")
     ] = "png",
     plane_format: Annotated[str, typer.Option(help="Of planes beside a png: exr, npy, png or tiff.")] = "exr",
+    enhance: Enhance = None,
+    settle: Settle = None,
     video: Annotated[str | None, typer.Option(help="Also join the pictures: mp4 or gif.")] = None,
     video_rate: Annotated[float, typer.Option(help="Pictures per second of the video.")] = 30.0,
     jobs: Annotated[int, typer.Option(help="Processes that draw side by side.")] = 1,
@@ -93,7 +98,7 @@ def capture(
 ) -> None:
     """Render a sequence; run again, it goes on where it was cut off, without redoing what is whole."""
     _check(jobs, every, file_format, video)
-    devices = [load_sensor(name) for name in sensors.split(",")]
+    devices = [with_display(load_sensor(name), detail=enhance, settle=settle) for name in sensors.split(",")]
     pixels = None if size is None else read_size(size)
     moment = read_moment(at)
     place, detail = read_scene(scene, level)
@@ -113,7 +118,7 @@ def capture(
             shots=shots, numbers=numbers, options=options, detail=detail,
         )
         for world, device in zip(worlds, devices, strict=True)
-        for numbers in blocks(len(shots))
+        for numbers in sequence_blocks(device, shots)
     ]  # fmt: skip
     _draw_all(work, jobs, len(shots) * len(devices))
     for device in devices if video else ():

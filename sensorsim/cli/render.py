@@ -16,6 +16,7 @@ from sensorsim.cli.options import (
     Atmosphere,
     Backend,
     Effects,
+    Enhance,
     Preset,
     SceneName,
     Visibility,
@@ -27,6 +28,7 @@ from sensorsim.cli.options import (
     read_moment,
     read_scene,
     read_size,
+    with_display,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.errors import InputError, NumericsError
@@ -64,6 +66,7 @@ def render(
     ] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
+    enhance: Enhance = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
     radiance: Annotated[
         str, typer.Option(help="apparent, as it reaches the sensor, or source, as it leaves the surfaces.")
@@ -82,7 +85,7 @@ def render(
     as_json: AsJson = False,
 ) -> None:
     """Render one frame and write it with a sidecar of all its inputs."""
-    device = load_sensor(sensor)
+    device = with_display(load_sensor(sensor), detail=enhance)
     pixels = device.size if size is None else read_size(size)
     display = _display(device, window, polarity)
     wanted = [name for name in planes.split(",") if name]
@@ -148,7 +151,7 @@ def _display(sensor: Sensor, window: str | None, polarity: str | None) -> Displa
     except NumericsError as error:
         remedy = "give temperatures from 150 to 700 K"
         raise InputError("command line", "--window", window, "outside of the sensor's table", remedy) from error
-    return DisplaySettings(polarity=chosen, level=level, span=span)
+    return replace(sensor.display, polarity=chosen, level=level, span=span)
 
 
 def _report(frame: Frame, files: list[Path], as_json: bool) -> None:
