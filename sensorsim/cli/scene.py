@@ -59,10 +59,9 @@ def _show(audit: Audit) -> None:
         used = f"{reading.roof_word_used} / {reading.wall_word_used}"
         readings.add_row(_short(reading.numbers), reading.description, printed, used, reading.note)
     console.print(readings)
-    for kin in audit.levels:
-        console.print(_kin(kin))
-    for condition, numbers in audit.interiors.items():
-        console.print(f"interior {condition}: {_short(numbers)}")
+    interiors = (f"interior {condition}: {_short(numbers)}" for condition, numbers in audit.interiors.items())
+    for line in (*map(_kin, audit.levels), *interiors):
+        console.print(line)
     for note in audit.notes:
         console.print(f"- {note}", style="dim")
 
