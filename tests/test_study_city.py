@@ -28,8 +28,7 @@ def city_mesh(folder: Path, buildings: int) -> Mesh:
 
 
 def submitted(mesh: Mesh, camera: Camera) -> int:
-    count = len(mesh.triangle)
-    made = tiles.build_tiles(mesh, np.zeros(count, np.int64), np.zeros(count))
+    made = tiles.build_tiles(mesh, np.zeros(len(mesh.triangle)))
     seen = tiles.visible_tiles(made, camera, SIZE)
     return int(np.sum(made.edge[seen + 1] - made.edge[seen]))
 

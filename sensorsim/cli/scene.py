@@ -49,6 +49,18 @@ def _show(audit: Audit) -> None:
             _short(use.walls), use.note,
         )  # fmt: skip
     console.print(words)
+    console.print(_readings(audit))
+    for line in (
+        *map(_kin, audit.levels),
+        *(f"interior {of}: {_short(those)}" for of, those in audit.interiors.items()),
+    ):
+        console.print(line)
+    for note in audit.notes:
+        console.print(f"- {note}", style="dim")
+
+
+def _readings(audit: Audit) -> Table:
+    """Features whose words needed a reading, with the reading."""
     readings = Table(
         title="Features that figure 10 omits, repeats or contradicts, or that go by class", title_justify="left"
     )
@@ -58,12 +70,7 @@ def _show(audit: Audit) -> None:
         printed = f"{reading.roof_word or 'none'} / {reading.wall_word or 'none'}"
         used = f"{reading.roof_word_used} / {reading.wall_word_used}"
         readings.add_row(_short(reading.numbers), reading.description, printed, used, reading.note)
-    console.print(readings)
-    interiors = (f"interior {condition}: {_short(numbers)}" for condition, numbers in audit.interiors.items())
-    for line in (*map(_kin, audit.levels), *interiors):
-        console.print(line)
-    for note in audit.notes:
-        console.print(f"- {note}", style="dim")
+    return readings
 
 
 def _kin(kin: LevelKin) -> str:
