@@ -78,10 +78,11 @@ DETECTION = UniformBlock(
 
 
 def view_frame(
-    camera: Camera, size: tuple[int, int], lowest: NDArray[np.float64], highest: NDArray[np.float64]
-) -> bytes:
-    """What `VIEW_FRAME` holds for a picture of a scene within the box `lowest` to `highest` (3,) [m]."""
-    near, far = clip_distances(camera, size, lowest, highest)
+    camera: Camera, size: tuple[int, int], lowest: NDArray[np.float64], highest: NDArray[np.float64],
+    least: float = 0.0,
+) -> bytes:  # fmt: skip
+    """What `VIEW_FRAME` holds for a picture of a scene in the box `lowest` to `highest` (3,), no nearer than `least`."""
+    near, far = clip_distances(camera, size, lowest, highest, least)
     corner, right, up = camera.view_rays(size)
     return VIEW_FRAME.pack(
         clip_from_camera=camera.clip_from_camera(size, near, far), camera_position=camera.position, view_corner=corner,

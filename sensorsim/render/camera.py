@@ -93,15 +93,15 @@ def station_camera(scene: Scene, name: str, *, horizontal_field_of_view: float |
 
 
 def clip_distances(
-    camera: Camera, size: tuple[int, int], lowest: FloatArray, highest: FloatArray
+    camera: Camera, size: tuple[int, int], lowest: FloatArray, highest: FloatArray, least: float = 0.0
 ) -> tuple[float, float]:
-    """Near and far clip plane [m] for a scene within the box `lowest` to `highest` (3,).
+    """Near and far clip plane [m] for a scene within the box `lowest` to `highest` (3,), nowhere nearer than `least`.
 
     The near plane is as far as the scene allows, since the depth buffer's resolution goes with it. It is square to the
     view: what lies at a distance is nearer to it at the picture's corners, by the cosine of their angle.
     """
     corner = np.where(camera.position < lowest, lowest, np.minimum(camera.position, highest))
-    nearest = float(np.linalg.norm(corner - camera.position))
+    nearest = max(float(np.linalg.norm(corner - camera.position)), least)
     farthest = float(np.linalg.norm(np.maximum(np.abs(lowest - camera.position), np.abs(highest - camera.position))))
     cosine = 1.0 / float(np.linalg.norm([1.0, *camera.half_extent(size)]))
     near = max(0.5 * cosine, 0.5 * nearest * cosine)

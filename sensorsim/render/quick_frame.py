@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from sensorsim.gpu import mesh_buffers, render_target
 from sensorsim.render.blocks import VIEW_FRAME, view_frame
 from sensorsim.render.camera import Camera
+from sensorsim.render.nearest import Nearest
 from sensorsim.render.passes import Pass
 from sensorsim.render.solids import Solids
 from sensorsim.render.tiles import build_tiles, visible_tiles
@@ -26,8 +27,9 @@ MOST_SURFACES = 2**24 - 1  # that single precision counts
 class QuickFrame:
     """Draws the numbers of the surfaces in a world's pictures of one size, in the renderer's context."""
 
-    def __init__(self, ctx: moderngl.Context, world: World, size: tuple[int, int]) -> None:
+    def __init__(self, ctx: moderngl.Context, world: World, size: tuple[int, int], near: Nearest) -> None:
         mesh = self.mesh = world.scene.mesh
+        self.near = near
         self.ctx, self.first = ctx, world.scene.surfaces.area.size
         self.box = mesh.position.min(axis=0), mesh.position.max(axis=0)
         self.target = render_target(ctx, size, {"number": "R32F"}, depth=True)
@@ -52,8 +54,9 @@ class QuickFrame:
 
     def draw(self, camera: Camera, solids: Solids | None) -> None:
         """Draw what the camera sees into the target, and what stands among the surfaces."""
-        box = self.box if solids is None else solids.box(*self.box)
-        self.block.write(view_frame(camera, self.target.size, *box))
+        lowest, highest = self.box if solids is None else solids.box(*self.box)
+        least = self.near.distance(camera.position) if solids is None else 0.0
+        self.block.write(view_frame(camera, self.target.size, lowest, highest, least))
         self.block.bind_to_uniform_block(VIEW_FRAME.binding)
         self.target.use()
         self.target.clear()

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from sensorsim.radiometry import BandTable
 from sensorsim.render.camera import Camera
 from sensorsim.render.illumination import Illumination
+from sensorsim.render.nearest import Nearest
 from sensorsim.render.planes import Planes, surface_planes
 from sensorsim.render.quick_frame import MOST_SURFACES, QuickFrame
 from sensorsim.render.quick_light import QuickLight
@@ -23,9 +24,9 @@ class QuickRoad:
 
     def __init__(
         self, ctx: moderngl.Context, world: World, sensor: Sensor, size: tuple[int, int], rows: SurfaceRows,
-        planes: Planes, band_table: BandTable | None, gain: AutoGain, *, samples: int, energy: float,
+        planes: Planes, band_table: BandTable | None, gain: AutoGain, near: Nearest, *, samples: int, energy: float,
     ) -> None:  # fmt: skip
-        self.frame, self.gain = QuickFrame(ctx, world, (samples * size[0], samples * size[1])), gain
+        self.frame, self.gain = QuickFrame(ctx, world, (samples * size[0], samples * size[1]), near), gain
         self.rows = RowChain(sensor, size, samples=samples, energy=energy)
         self.light = QuickLight(world, rows, planes, band_table, self.rows.each)
 

@@ -22,6 +22,7 @@ from sensorsim.render.frame_effects import frame_ledger, world_extremes
 from sensorsim.render.illumination import Illumination, illuminate, seen_with
 from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
+from sensorsim.render.nearest import Nearest
 from sensorsim.render.passes import TEXTURE_UNITS
 from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
 from sensorsim.render.quick_road import QuickRoad, quick_planes
@@ -162,7 +163,7 @@ class Renderer:
 
     def _build(self) -> None:
         ctx, mesh = self.ctx, self.world.scene.mesh
-        self._box = mesh.position.min(axis=0), mesh.position.max(axis=0)
+        self._box, self._near = (mesh.position.min(axis=0), mesh.position.max(axis=0)), Nearest(mesh)
         self._moment = MomentTables(ctx, self.world, self.band_table)
         vertices = {"position": mesh.position.astype(np.float32), "surface": mesh.surface}
         buffers, emissive = mesh_buffers(ctx, vertices, mesh.triangle), self.band_table is not None
@@ -198,7 +199,8 @@ class Renderer:
         self._last_time = time_of_day
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        self._blocks["ViewFrame"].write(view_frame(camera, self.size, *self._solids.box(*self._box)))
+        least = self._near.distance(camera.position) if self._solids.solids is None else 0.0
+        self._blocks["ViewFrame"].write(view_frame(camera, self.size, *self._solids.box(*self._box), least))
         air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
@@ -212,7 +214,7 @@ class Renderer:
                 count = self.world.scene.surfaces.area.size
                 self._quick = QuickRoad(
                     self.ctx, self.world, self.sensor, self.size, surface_rows(self._moment.records, count), planes,
-                    self.band_table, self._gain, samples=self.samples, energy=self.blur_energy,
+                    self.band_table, self._gain, self._near, samples=self.samples, energy=self.blur_energy,
                 )  # fmt: skip
         return self._quick
 
