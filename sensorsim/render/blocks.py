@@ -81,7 +81,7 @@ def view_frame(
     camera: Camera, size: tuple[int, int], lowest: NDArray[np.float64], highest: NDArray[np.float64],
     least: float = 0.0,
 ) -> bytes:  # fmt: skip
-    """What `VIEW_FRAME` holds for a picture of a scene in the box `lowest` to `highest` (3,), no nearer than `least`."""
+    """What `VIEW_FRAME` holds for a picture of a scene in the box `lowest` to `highest` (3,) and beyond `least` [m]."""
     near, far = clip_distances(camera, size, lowest, highest, least)
     corner, right, up = camera.view_rays(size)
     return VIEW_FRAME.pack(
