@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
 from sensorsim.sensor import detail_kernels, row_kernels
+from sensorsim.sensor.bloom import bloomed
 from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
 from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
@@ -106,7 +107,10 @@ class RowChain:
         )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        self._report(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)), frame)
+        light = self._remembered(frame)
+        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+            light = bloomed(light, look.full, self.sensor.detector.blooming)
+        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
         self._put_out(frame)
         return self.signal
 
