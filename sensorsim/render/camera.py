@@ -43,14 +43,15 @@ class Camera:
         yaw, pitch, roll = np.radians([self.yaw, self.pitch, self.roll])
         forward = np.array([np.sin(yaw) * np.cos(pitch), np.cos(yaw) * np.cos(pitch), np.sin(pitch)])
         level = np.array([np.cos(yaw), -np.sin(yaw), 0.0])
-        upright = np.cross(level, forward)
-        right = np.cos(roll) * level - np.sin(roll) * upright
-        return forward, right, np.cross(right, forward)
+        upright = np.array([-np.sin(yaw) * np.sin(pitch), -np.cos(yaw) * np.sin(pitch), np.cos(pitch)])
+        cosine, sine = np.cos(roll), np.sin(roll)
+        return forward, cosine * level - sine * upright, cosine * upright + sine * level
 
     def clip_from_camera(self, size: tuple[int, int], near: float, far: float) -> FloatArray:
         """Perspective projection (4, 4) of a picture of `size` (width, height), clip planes at `near` and `far` [m]."""
-        forward, _, up = self.axes()
-        eye_from_camera = matrix44.create_look_at(np.zeros(3), forward, up, dtype=np.float64).T
+        forward, right, up = self.axes()
+        eye_from_camera = np.eye(4)
+        eye_from_camera[:3, :3] = right, up, -forward
         half_width, half_height = self.half_extent(size)
         projection = matrix44.create_perspective_projection_from_bounds(
             -half_width * near, half_width * near, -half_height * near, half_height * near, near, far, dtype=np.float64

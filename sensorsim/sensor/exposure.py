@@ -25,5 +25,7 @@ def sampled_surfaces(picture: NDArray[Any], surface: NDArray[np.bool_]) -> NDArr
 
 def exposure_for(look: Sensitivity, radiance: NDArray[Any]) -> float:
     """Share of the light that keeps all but a hundredth of the pixels below FILLED of what the detector holds."""
+    if float(np.max(radiance)) <= FILLED * look.full:
+        return 1.0  # of all the pixels: no need to sort them
     bright = float(np.quantile(radiance, 0.99))
     return min(1.0, FILLED * look.full / bright) if bright > 0.0 else 1.0

@@ -59,7 +59,7 @@ class RowChain:
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
         self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
-        self.marked = np.zeros(self.light.shape, np.bool_)  # where no surface is seen
+        self.surface = np.ones(self.light.shape, np.bool_)  # where one is seen, for the gain
         self.focus, self.signal = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
@@ -109,7 +109,7 @@ class RowChain:
         middle = slice(self.samples // 2, None, self.samples)
         step = self.samples if picture.shape != self.size[::-1] else 1
         here = picture[step // 2 :: step, step // 2 :: step]
-        return sampled_surfaces(here, ~self.marked[middle, middle])
+        return sampled_surfaces(here, self.surface[middle, middle])
 
     def show(self, settings: DisplaySettings) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window."""
