@@ -69,6 +69,7 @@ DETECTION = UniformBlock(
         Field("renewed", "float", "share of a picture that is new one frame later"),
         Field("kept", "float", "share of a channel's level that is left a block later"),
         Field("level", "float", "radiance that stands for a channel's level [W m-2 sr-1]"),
+        Field("blooming", "float", "share of the charge above full that spills along the column"),
         Field("halo_share", "float", "of the light above full that comes back as a halo"),
         Field("halo_radius", "float", "of the halo [blocks]"),
         Field("frame", "uint", "number of the frame"),
