@@ -17,9 +17,18 @@ def sampled_surfaces(picture: NDArray[Any], surface: NDArray[np.bool_]) -> NDArr
 
     picture, surface (height, width); n is the largest that leaves ENOUGH pixels of both together.
     """
-    stride = max(1, math.isqrt(picture.size // ENOUGH))
-    start = stride // 2 if min(picture.shape) > stride // 2 else 0
-    values, seen = picture[start::stride, start::stride], surface[start::stride, start::stride]
+    every = sampling(picture.shape)
+    return of_surfaces(picture[every, every], surface[every, every])
+
+
+def sampling(shape: tuple[int, ...]) -> slice:
+    """The rows and columns of a picture (height, width) that `sampled_surfaces` takes."""
+    stride = max(1, math.isqrt(math.prod(shape) // ENOUGH))
+    return slice(stride // 2 if min(shape) > stride // 2 else 0, None, stride)
+
+
+def of_surfaces(values: NDArray[Any], seen: NDArray[np.bool_]) -> NDArray[Any]:
+    """Values where surfaces are `seen`, of the same shape; all where none is."""
     return values[seen] if np.any(seen) else values.ravel()
 
 
