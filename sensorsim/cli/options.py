@@ -1,6 +1,6 @@
 """Options that commands share, and the readers of their values."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from datetime import date, datetime, timedelta, timezone
@@ -14,6 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from sensorsim.effects import EffectChoice, read_choice
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
+from sensorsim.render.air import check_atmosphere
 from sensorsim.render.detail import DetailRule
 from sensorsim.scene import ALL_LEVELS, Scene, load_all_levels, load_scene
 from sensorsim.sensor import Sensor
@@ -36,6 +37,13 @@ Atmosphere = Annotated[
     str, typer.Option(help="standard (from the weather), report (eq. 15), or modtran (its tables' summer day).")
 ]
 Visibility = Annotated[float, typer.Option(help="Meteorological range [km].")]
+Radiance = Annotated[
+    str, typer.Option(help="apparent, as it reaches the sensor, or source, as it leaves the surfaces.")
+]
+Exchange = Annotated[
+    bool,
+    typer.Option("--exchange", help="Near surfaces see each other by long waves and diffuse light, without shadows."),
+]
 Aerosol = Annotated[str, typer.Option(help="rural, urban, maritime, tropospheric, advection_fog or radiation_fog.")]
 TEMPERATURE_PLANES = frozenset({"surface_temperature", "fit_error"})  # a band that shows none has them on request
 Enhance = Annotated[float | None, typer.Option(help="Gain of fine detail; the sensor's own if left out, 1 for none.")]
@@ -86,6 +94,20 @@ def read_effects(text: str, planes: Collection[str]) -> EffectChoice:
     """The choice of effects, with the temperatures that the planes need."""
     choice = read_choice(text)
     return choice.with_wanted("temperature") if TEMPERATURE_PLANES & set(planes) else choice
+
+
+def read_atmosphere(name: str, radiance: str) -> str:
+    """Name of the air to look through: none of it for what leaves the surfaces."""
+    if radiance not in ("source", "apparent"):
+        raise InputError("command line", "--radiance", radiance, "unknown", "use source or apparent")
+    check_atmosphere(name)
+    return name if radiance == "apparent" else "none"
+
+
+def show_warnings(warnings: Iterable[str]) -> None:
+    """What a user should know of the inputs, on the error stream."""
+    for warning in dict.fromkeys(warnings):
+        Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
 
 
 def make_folder(folder: Path) -> None:

@@ -19,57 +19,59 @@ _FARTHEST = np.float32(1e9)  # [m] along the horizon; all air is opaque before
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def mark_seen(numbers: Array, first: int, last: int, seen: Array) -> None:
-    """Set `seen` (s + 1,) at the numbers in rows `first` to `last`."""
+def find_runs(numbers: Array, first: int, last: int, ends: Array, seen: Array) -> None:
+    """Where runs end in rows `first` to `last`, in `ends` (height, width), and which numbers are `seen` (s + 1,)."""
     for y in range(first, last):
-        before = -1
-        for x in range(numbers.shape[1]):
-            number = int(numbers[y, x])
-            if number != before:
-                seen[number] = True
-                before = number
+        row, run, width = numbers[y], 0, numbers.shape[1]
+        for x in range(1, width):
+            if row[x] != row[x - 1]:
+                ends[y, run] = x
+                run += 1
+                seen[int(row[x - 1])] = True
+        ends[y, run] = width
+        seen[int(row[width - 1])] = True
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def light_rows(
-    numbers: Array, rays: Array, eye: Array, planes: tuple[Array, Array], sent: tuple[Array, Array], gloss: Array,
-    around: tuple[Array, ...], air: tuple[Array, Array], first: int, last: int, light: Array, marked: Array,
+    numbers: Array, ends: Array, rays: Array, eye: Array, planes: tuple[Array, Array], sent: tuple[Array, Array],
+    gloss: Array, around: tuple[Array, ...], air: tuple[Array, Array], first: int, last: int, light: Array,
+    surface: Array,
 ) -> None:  # fmt: skip
-    """Band radiance at the sensor and where no surface is seen (height, width), rows `first` to `last` from the top.
+    """Band radiance at the sensor and where a surface is seen (height, width), rows `first` to `last` from the top.
 
-    numbers (height, width) from the lowest row up, of surfaces plus one; rays (3, 3): through the lower left corner,
-    along width and height. planes, sent: of the scene's surfaces and of solids that follow on them. gloss (s,): kind
-    or -1. around: sky, gradation, indicatrix, rise (kinds, n), mirror (kinds, m), ground's radiance (1,). air: terms
-    and direction of the sun with the asymmetry, see `through_air`.
+    numbers (height, width) from the lowest row up, of surfaces plus one; ends: of their runs; rays (3, 3): through the
+    lower left corner, along width and height. planes, sent: of the scene's surfaces and of solids that follow on them.
+    gloss (s,): kind or -1. around: sky, gradation, indicatrix, rise (kinds, n), mirror (kinds, m), ground's radiance
+    (1,). air: terms and direction of the sun with the asymmetry, see `through_air`.
     """
     height, width = numbers.shape
-    source, away = np.zeros(width, np.float32), np.zeros(width, np.float32)
-    step, start, first_solid = rays[1] / width, np.zeros(3), gloss.size
+    source, away, scratch = np.zeros(width, np.float32), np.zeros(width, np.float32), np.zeros((4, width), np.float32)
+    step, start, solid = rays[1] / width, np.zeros(3), gloss.size
     along = step.astype(np.float32)
     for y in range(first, last):
-        row = numbers[height - 1 - y]
-        start[:] = rays[0] + rays[2] * ((height - 0.5 - y) / height) + 0.5 * step
-        ray, begin = start.astype(np.float32), 0
+        row = height - 1 - y
+        start[:] = rays[0] + rays[2] * ((row + 0.5) / height) + 0.5 * step
+        ray, begin, run, clear = start.astype(np.float32), 0, 0, min(start[2], start[2] + width * step[2]) > 0.0
         while begin < width:
-            number, end = row[begin], begin + 1
-            while end < width and row[end] == number:
-                end += 1
-            place = int(number) - 1
-            marked[y, begin:end] = place < 0
+            place, end = int(numbers[row, begin]) - 1, ends[row, run]
+            surface[y, begin:end] = place >= 0
             if place < 0:
                 _beyond(ray, along, eye, around, air[1], begin, end, source, away)
             else:
-                which = int(place >= first_solid)
-                here = place - which * first_solid
+                clear, which = False, int(place >= solid)
+                here = place - which * solid
                 plane, sends = planes[which][here], sent[which][here]
                 _surface(start, step, eye, plane, begin, end, away)
                 source[begin:end] = sends[0]
                 if which == 0 and gloss[place] >= 0:
-                    _mirror(
-                        ray, along, plane, sends, around[3][gloss[place]], around[4][gloss[place]], begin, end, source
-                    )
-            begin = end
-        through_air(ray, along, source, away, air[0], air[1], light[y])
+                    rise, mirror = around[3][gloss[place]], around[4][gloss[place]]
+                    _mirror(ray, along, plane, sends, rise, mirror, begin, end, source)
+            begin, run = end, run + 1
+        if clear:
+            light[y] = source
+        else:
+            through_air(ray, along, source, away, air[0], air[1], scratch, light[y])
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.gpu import mesh_buffers, render_target
-from sensorsim.render.blocks import VIEW_FRAME
-from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.blocks import VIEW_FRAME, view_frame
+from sensorsim.render.camera import Camera
 from sensorsim.render.passes import Pass
 from sensorsim.render.solids import Solids
 from sensorsim.render.tiles import build_tiles, visible_tiles
@@ -33,8 +33,8 @@ class QuickFrame:
         self.target = render_target(ctx, size, {"number": "R32F"}, depth=True)
         self.stored = np.zeros((size[1], size[0]), np.float32)
         self.block = ctx.buffer(reserve=VIEW_FRAME.dtype.itemsize)
-        self.tops = _tops(world)
-        self.tiles = build_tiles(mesh, np.zeros(len(mesh.triangle), np.int64), self.tops)
+        self.top = _tops(world)
+        self.tiles = build_tiles(mesh, self.top)
         buffers = self.buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
         )
@@ -46,22 +46,14 @@ class QuickFrame:
     def show_only(self, triangles: NDArray[np.bool_]) -> None:
         """Draw these of the mesh's triangles (t,) from now on."""
         some = replace(self.mesh, triangle=self.mesh.triangle[triangles])
-        self.tiles = build_tiles(some, np.zeros(len(some.triangle), np.int64), self.tops[triangles])
+        self.tiles = build_tiles(some, self.top[triangles])
         assert self.buffers.index is not None
         self.buffers.index.write(self.tiles.triangle)
 
     def draw(self, camera: Camera, solids: Solids | None) -> None:
         """Draw what the camera sees into the target, and what stands among the surfaces."""
         box = self.box if solids is None else solids.box(*self.box)
-        near, far = clip_distances(camera, self.target.size, *box)
-        corner, right, up = camera.view_rays(self.target.size)
-        clip = camera.clip_from_camera(self.target.size, near, far)
-        self.block.write(
-            VIEW_FRAME.pack(
-                clip_from_camera=clip, camera_position=camera.position, view_corner=corner, view_right=right,
-                view_up=up,
-            )
-        )  # fmt: skip
+        self.block.write(view_frame(camera, self.target.size, *box))
         self.block.bind_to_uniform_block(VIEW_FRAME.binding)
         self.target.use()
         self.target.clear()

@@ -14,8 +14,8 @@ from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, mesh_buffers, render_target
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
-from sensorsim.render.blocks import AIR, VIEW_FRAME
-from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.blocks import AIR, VIEW_FRAME, view_frame
+from sensorsim.render.camera import Camera
 from sensorsim.render.detail import DetailRule
 from sensorsim.render.display_stage import DisplayStage
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
@@ -198,17 +198,7 @@ class Renderer:
         self._last_time = time_of_day
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        near, far = clip_distances(camera, self.size, *self._solids.box(*self._box))
-        corner, right, up = camera.view_rays(self.size)
-        self._blocks["ViewFrame"].write(
-            VIEW_FRAME.pack(
-                clip_from_camera=camera.clip_from_camera(self.size, near, far),
-                camera_position=camera.position,
-                view_corner=corner,
-                view_right=right,
-                view_up=up,
-            )
-        )
+        self._blocks["ViewFrame"].write(view_frame(camera, self.size, *self._solids.box(*self._box)))
         air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()

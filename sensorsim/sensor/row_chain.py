@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
 from sensorsim.sensor import detail_kernels, row_kernels
+from sensorsim.sensor.bloom import bloomed
 from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
 from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
+from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places
 from sensorsim.sensor.line_noise import LineNoise
 from sensorsim.sensor.memory import renewed_share
@@ -61,7 +62,7 @@ class RowChain:
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
         self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
-        self.marked = np.zeros(self.light.shape, np.bool_)  # where no surface is seen
+        self.surface = np.ones(self.light.shape, np.bool_)  # where one is seen, for the gain
         self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
         self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
@@ -106,7 +107,10 @@ class RowChain:
         )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        self._report(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)), frame)
+        light = self._remembered(frame)
+        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+            light = bloomed(light, look.full, self.sensor.detector.blooming)
+        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
         self._put_out(frame)
         return self.signal
 
@@ -117,9 +121,14 @@ class RowChain:
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
         middle = slice(self.samples // 2, None, self.samples)
-        columns = self.kernel[-1] if self.sensor.scan.equal_angle else middle  # as the mirror places them
-        here = picture[middle][:, columns] if picture is self.light else picture
-        return sampled_surfaces(here, ~self.marked[middle][:, columns])
+        if not self.sensor.scan.equal_angle:
+            return sampled_surfaces(
+                picture[middle, middle] if picture is self.light else picture, self.surface[middle, middle]
+            )
+        line = sampled_lines(self.size)
+        columns = self.kernel[-1][line]  # as the mirror places them
+        here = picture[middle][line][:, columns] if picture is self.light else picture[line, line]
+        return of_surfaces(here, self.surface[middle][line][:, columns])
 
     def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
