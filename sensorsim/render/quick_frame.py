@@ -49,7 +49,7 @@ class QuickFrame:
         )  # fmt: skip
         plain = {"EMISSIVE": int(emissive), "PATH": 1, "MARKED": 1}
         self.backgrounds = [background_pass(ctx, generated, {**plain, "HORIZON": horizon}) for horizon in range(3)]
-        self.tiles = build_tiles(world.scene.mesh, *_kinds_and_heights(world, emissive=emissive))
+        self.tiles = build_tiles(world.scene.mesh, *_kinds_and_heights(world))
         mesh = world.scene.mesh
         buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
@@ -58,9 +58,9 @@ class QuickFrame:
             Pass(
                 ctx, "scene/quick.vert", "scene/quick.frag", blocks=(VIEW_FRAME, ILLUMINATION, AIR),
                 samplers=("settled_table", *MIRRORING), generated=texts,
-                defines={"MIRRORS": int(mirrors)}, mesh=buffers,
+                defines={"EMISSIVE": int(emissive), "MIRRORS": int(mirrors)}, mesh=buffers,
             )
-            for mirrors in ((False, True) if emissive else (False,))
+            for mirrors in (False, True)
         ]  # fmt: skip
 
     def settle(self, moment: int) -> None:
@@ -117,13 +117,13 @@ def horizon_rows(camera: Camera, size: tuple[int, int]) -> tuple[int, int]:
     return min(max(low, 0), size[1]), min(max(high, 0), size[1])
 
 
-def _kinds_and_heights(world: World, *, emissive: bool) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Of each triangle: 1 where its surface has a gloss that shows, and the height of its feature's top [m]."""
+def _kinds_and_heights(world: World) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Of each triangle: 1 where its surface has a gloss, and the height of its feature's top [m]."""
     mesh, assignment = world.scene.mesh, world.assignment
     surface = mesh.surface[mesh.triangle[:, 0]]
     codes = np.array([wall.code for wall in assignment.wall_types], dtype=np.int64)[assignment.wall_type]
-    gloss = gloss_records(codes, assignment.emissivity)[:, 0] >= 0.0
+    gloss = gloss_records(codes, assignment.emissivity, assignment.nir_reflectance)[:, 0] >= 0.0
     feature = world.scene.surfaces.feature
     top = np.full(int(feature.max()) + 1, -math.inf)
     np.maximum.at(top, feature[mesh.surface], mesh.position[:, 2])
-    return (gloss[surface] & emissive).astype(np.int64), top[feature[surface]]
+    return gloss[surface].astype(np.int64), top[feature[surface]]

@@ -31,7 +31,7 @@ def surface_table(
     record[:, 3] = quadrant_view_factors(normal)
     record[:, 4, 0] = assignment.nir_reflectance
     record[:, 4, 1] = feature
-    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity)
+    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity, assignment.nir_reflectance)
     rows = -(-count // SURFACES_PER_ROW)
     columns = SURFACES_PER_ROW if rows > 1 else count
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
