@@ -1,6 +1,6 @@
 """The air between a sensor and what it looks at: a sum of exponentials that thins out with height and glows.
 
-    tau = sum of weight_i exp(-d_i),   d_i = coefficient_i * range * mean of exp(-z / H_i) along the path
+    tau = sum of weight_i exp(-d_i),   d_i = range * (coefficient_i * mean of exp(-z / H_i) along the path + haze)
     L   = sum of weight_i [t_i L_surface + path_i],   t_i = exp(-d_i)
 
 A straight path from height z_c to z_t has the mean density (e^(-z_c/H) - e^(-z_t/H)) H / (z_t - z_c), whatever its
@@ -19,12 +19,12 @@ import numpy as np
 import numpy.typing as npt
 
 from sensorsim.constants import PI
+from sensorsim.environment.haze import NO_HAZE, SMALL, Haze, mean_decay
 from sensorsim.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
 
 MOST_TERMS = 4  # that a shader has room for
-_SMALL = 1e-2  # argument below which (1 - e^-x) / x and its kin come from their series, in the shader too
 _LEAST_HEIGHT = 1.0  # [m] over which the slope of a source is taken
 
 
@@ -36,12 +36,13 @@ class AirPath:
     """
 
     weight: FloatArray  # (k,) [-], sums to one
-    coefficient: FloatArray  # (k,) [m-1] extinction at height 0
+    coefficient: FloatArray  # (k,) [m-1] extinction at height 0, but for that of haze
     inverse_scale_height: FloatArray  # (k,) [m-1] of the extinction; 0 for air that is the same at all heights
     source: FloatArray  # (k,) [W m-2 sr-1] radiance of an endless level path at height 0
     source_decay: float  # [m-1] relative loss of the source with height
     beam_source: FloatArray  # (k,) [W m-2 sr-1] sunlight scattered at a right angle to the beam, height 0
     asymmetry: float  # [-] g of the phase function [HenyeyGreenstein1941], -1 to 1
+    haze: Haze = NO_HAZE  # the same in all terms
 
     def __post_init__(self) -> None:
         count = self.weight.size
@@ -95,8 +96,14 @@ class AirPath:
     def _depth(self, distance: npt.ArrayLike, camera_height: npt.ArrayLike, target_height: npt.ArrayLike) -> FloatArray:
         start = np.asarray(camera_height, dtype=np.float64)[..., None] * self.inverse_scale_height
         end = np.asarray(target_height, dtype=np.float64)[..., None] * self.inverse_scale_height
-        thickness = np.exp(-start) * _mean_decay(end - start)
-        return np.asarray(np.asarray(distance, dtype=np.float64)[..., None] * self.coefficient * thickness)
+        gas = self.coefficient * np.exp(-start) * mean_decay(end - start)
+        haze = self.haze.extinction * self.haze.mean_density(camera_height, target_height)[..., None]
+        return np.asarray(np.asarray(distance, dtype=np.float64)[..., None] * (gas + haze))
+
+    def densest(self, heights: FloatArray) -> FloatArray:
+        """Greatest extinction (k,) [m-1] of each term at any of the heights (n,) [m]."""
+        gas = self.coefficient * np.exp(-np.outer(heights, self.inverse_scale_height))
+        return np.asarray(np.max(gas + self.haze.extinction * self.haze.density(heights)[:, None], axis=0))
 
     def _phase(self, cosine: FloatArray) -> FloatArray:
         """Scattering towards the sensor relative to that at a right angle."""
@@ -127,13 +134,7 @@ def right_angle_phase(asymmetry: float) -> float:
     return float((1.0 - asymmetry**2) / (4.0 * PI * (1.0 + asymmetry**2) ** 1.5))
 
 
-def _mean_decay(x: FloatArray) -> FloatArray:
-    """(1 - e^-x) / x, 1 at 0."""
-    safe = np.where(np.abs(x) < _SMALL, 1.0, x)
-    return np.asarray(np.where(np.abs(x) < _SMALL, 1.0 - x / 2.0 + x * x / 6.0, -np.expm1(-safe) / safe))
-
-
 def _lag(depth: FloatArray, part: FloatArray) -> FloatArray:
     """(1 - t) / d - t with t = e^-d: the weight of the far end's source; 0 at 0 and at infinity."""
-    safe = np.where(depth < _SMALL, 1.0, depth)
-    return np.asarray(np.where(depth < _SMALL, depth / 2.0 - depth * depth / 3.0, -np.expm1(-safe) / safe - part))
+    safe = np.where(depth < SMALL, 1.0, depth)
+    return np.asarray(np.where(depth < SMALL, depth / 2.0 - depth * depth / 3.0, -np.expm1(-safe) / safe - part))

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from sensorsim.environment import LAPSE_RATE, AirPath, EnvironmentSample, clear_path, right_angle_phase, single_term
 from sensorsim.environment.air_path import MOST_TERMS
+from sensorsim.environment.haze import MIXED
 from sensorsim.environment.modtran import modtran_path
 from sensorsim.errors import InputError
 from sensorsim.radiometry import BandTable
@@ -60,6 +61,7 @@ def air_path(
         weight=found.weight,
         coefficient=found.coefficient,
         inverse_scale_height=found.inverse_scale_height,
+        haze=found.haze,
         source=emitted * (1.0 - found.scattered) * glow + found.scattered * around,
         source_decay=0.0 if table is None else source_decay(table, sample.air_temperature),
         beam_source=found.scattered * beam * right_angle_phase(_HAZE_ASYMMETRY),
@@ -85,4 +87,9 @@ def air_values(air: AirPath, camera_height: float, sun_direction: FloatArray) ->
         "beam_source": air.beam_source,
     }
     padded = {name: np.pad(values, (0, MOST_TERMS - values.size)) for name, values in terms.items()}
-    return {**padded, "sun_direction": sun_direction, "asymmetry": air.asymmetry}
+    haze: dict[str, npt.ArrayLike] = {
+        "haze": air.haze.extinction * float(air.haze.density(camera_height)),
+        "haze_decay": np.array([air.haze.below, air.haze.above]),
+        "haze_mixed": MIXED - camera_height,
+    }
+    return {**padded, **haze, "sun_direction": sun_direction, "asymmetry": air.asymmetry}
