@@ -128,7 +128,7 @@ def through_air(
 ) -> FloatArray:
     """Radiance at the sensor [W m-2 sr-1] over distances [m] along unit directions of view (..., 3)."""
     height = float(camera.position[2])
-    return light.air.apparent_radiance(
+    return light.air.seen_from(height).apparent_radiance(
         source, distance, height, height + distance * view[..., 2], view @ light.sun_direction
     )
 

@@ -197,6 +197,20 @@ def test_thick_haze_ends_with_the_mixed_layer_and_thin_haze_does_not() -> None:
     np.testing.assert_allclose(thin.density([1000.0, 2000.0]), [0.627, 0.393], rtol=1e-2)
 
 
+@pytest.mark.parametrize("visibility", [50.0, 23.0, 5.0])
+@pytest.mark.parametrize("height", [-3.0, 0.0, 0.5, 2.0, 75.0, 999.0, 1001.0, 3000.0, 30e3])
+def test_air_as_a_camera_takes_it_has_the_depth_of_haze_and_gases_to_the_ground(
+    visibility: float, height: float
+) -> None:
+    """Expected: exact down to the ground; to a roof of 40 m 0.1 % of the depth within the haze, 5 % from above it."""
+    path, distance = _standard("LLLTV", visibility, None), float(np.hypot(3e3, height))
+    seen = path.seen_from(height)
+    assert seen.haze.extinction == 0.0
+    np.testing.assert_allclose(seen._depth(distance, height, 0.0), path._depth(distance, height, 0.0), rtol=1e-7)
+    allowed = 1e-3 if height < 1e3 or visibility > 5.0 else 0.05
+    np.testing.assert_allclose(seen._depth(distance, height, 40.0), path._depth(distance, height, 40.0), rtol=allowed)
+
+
 @pytest.mark.parametrize("entry", ["extinction", "below", "above"])
 @pytest.mark.parametrize("value", [-1e-9, np.nan, np.inf])
 def test_impossible_haze_is_refused_by_name(entry: str, value: float) -> None:

@@ -10,7 +10,6 @@ from glsl_harness import evaluate
 from small_world import plain_tables, random_normals, tables
 
 from sensorsim.environment import AirPath, clear_path, single_term
-from sensorsim.environment.haze import Haze
 from sensorsim.gpu import constants_glsl, float_table
 from sensorsim.materials.gloss import load_gloss
 from sensorsim.radiometry import FLIR_BAND, BandTable, build_band_table
@@ -196,7 +195,6 @@ def _air(**changes: Any) -> AirPath:
         "source_decay": 1.1e-4,
         "beam_source": np.array([1.0, 0.5, 0.2, 0.0]),
         "asymmetry": 0.65,
-        "haze": Haze(extinction=1.5e-4, below=1e-4, above=2.5e-3),
     }
     return AirPath(**{**values, **changes})
 

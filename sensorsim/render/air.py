@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from sensorsim.environment import LAPSE_RATE, AirPath, EnvironmentSample, clear_path, right_angle_phase, single_term
 from sensorsim.environment.air_path import MOST_TERMS
-from sensorsim.environment.haze import MIXED
 from sensorsim.environment.modtran import modtran_path
 from sensorsim.errors import InputError
 from sensorsim.radiometry import BandTable
@@ -77,6 +76,7 @@ def source_decay(table: BandTable, air_temperature: float) -> float:
 
 def air_values(air: AirPath, camera_height: float, sun_direction: FloatArray) -> Mapping[str, npt.ArrayLike]:
     """Fields of the `Air` block for a camera's height [m]."""
+    air = air.seen_from(camera_height)
     source, slope = air.source_at(camera_height)
     terms = {
         "extinction": air.coefficient * np.exp(-camera_height * air.inverse_scale_height),
@@ -87,9 +87,4 @@ def air_values(air: AirPath, camera_height: float, sun_direction: FloatArray) ->
         "beam_source": air.beam_source,
     }
     padded = {name: np.pad(values, (0, MOST_TERMS - values.size)) for name, values in terms.items()}
-    haze: dict[str, npt.ArrayLike] = {
-        "haze": air.haze.extinction * float(air.haze.density(camera_height)),
-        "haze_decay": np.array([air.haze.below, air.haze.above]),
-        "haze_mixed": MIXED - camera_height,
-    }
-    return {**padded, **haze, "sun_direction": sun_direction, "asymmetry": air.asymmetry}
+    return {**padded, "sun_direction": sun_direction, "asymmetry": air.asymmetry}

@@ -31,7 +31,7 @@ AIR = UniformBlock(
     name="Air",
     binding=4,
     fields=(
-        Field("extinction", "vec4", "of each term at the camera's height, but for haze [m-1]"),
+        Field("extinction", "vec4", "of each term at the camera's height [m-1]"),
         Field("weight", "vec4", "of each term, together 1; 0 for terms that are not used"),
         Field("inverse_scale_height", "vec4", "of each term's extinction [m-1]"),
         Field("source", "vec4", "of each term at the camera's height [W m-2 sr-1]"),
@@ -39,9 +39,6 @@ AIR = UniformBlock(
         Field("beam_source", "vec4", "of each term, sunlight scattered at a right angle [W m-2 sr-1]"),
         Field("sun_direction", "vec3", "towards the sun"),
         Field("asymmetry", "float", "g of the phase function"),
-        Field("haze_decay", "vec2", "of its extinction with height, below and above its mixed layer [m-1]"),
-        Field("haze", "float", "extinction by haze at the camera's height, the same in all terms [m-1]"),
-        Field("haze_mixed", "float", "top of that layer above the camera [m]"),
     ),
 )
 

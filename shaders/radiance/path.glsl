@@ -27,20 +27,9 @@ Ratio phase(Ratio sun_cosine) {
     return part * sqrt(part);
 }
 
-// Mean density of haze, relative to that at the camera, along a path that rises by so much. One exponential holds on
-// the camera's side of the mixed layer's top, another beyond. Twin: sensorsim.environment.haze.
-Ratio mean_haze(Metre rise) {
-    bool low = air.haze_mixed > 0.0;
-    vec2 decay = low ? air.haze_decay.xy : air.haze_decay.yx;
-    Metre reach = low ? min(rise, air.haze_mixed) : max(rise, air.haze_mixed);
-    Ratio share = rise == 0.0 ? 1.0 : reach / rise;
-    vec4 mean = mean_decay(vec4(decay * vec2(reach, rise - reach), 0.0, 0.0));
-    return share < 1.0 ? share * mean.x + (1.0 - share) * exp(-decay.x * air.haze_mixed) * mean.y : mean.x;
-}
-
 // Extinction of each term along a path that rises by so much, mean over it [m-1]; smooth enough for vertices
 vec4 mean_extinction(Metre rise) {
-    return air.extinction * mean_decay(air.inverse_scale_height * rise) + air.haze * mean_haze(rise);
+    return air.extinction * mean_decay(air.inverse_scale_height * rise);
 }
 
 // rise [m]: of the surface above the camera; view: from the camera to the surface
