@@ -22,7 +22,7 @@ from sensorsim.sensor import load_sensor
 AT = "1976-02-07T10:00"
 SIZE = (32, 24)
 VIEWS = [look_at([-60.0 + 3.0 * k, -80.0, 40.0], [20.0, 20.0, 5.0], 40.0) for k in range(4)]
-SHOTS = tuple(Shot(number=k, time_of_day=36000.0 + 60.0 * k, camera=view) for k, view in enumerate(VIEWS))
+SHOTS = tuple(Shot(number=k, time_of_day=36000.0 + k / 30.0, camera=view) for k, view in enumerate(VIEWS))
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
@@ -62,8 +62,8 @@ def test_cut_off_sequence_goes_on_without_redoing_or_losing_frames(tmp_path: Pat
 
 
 def test_frames_of_a_detector_that_remembers_do_not_depend_on_where_work_is_cut(tmp_path: Path) -> None:
-    assert warm_up(load_sensor("uncooled")) >= 2
-    assert warm_up(load_sensor("flir")) == 0
+    assert warm_up(load_sensor("uncooled"), SHOTS, 3) >= 2
+    assert warm_up(load_sensor("flir"), SHOTS, 3) == 0
     draw(tmp_path / "one", "uncooled")
     draw(tmp_path / "two", "uncooled", range(3, 4))
     name = frame_path(SequenceOptions(folder=tmp_path), load_sensor("uncooled"), 3).name

@@ -71,7 +71,7 @@ def test_frame_of_one_radiance_is_middle_grey(radiance):
 def test_automatic_gain_does_not_show_a_millikelvin_as_contrast():
     """An isothermal scene that is off by 1 mK stays within a few of 255 codes."""
     radiance = band_radiance(FLIR_BAND, np.array([290.0, 290.001]))
-    codes = display_code(radiance, fix_window(DisplaySettings(), radiance, tail=0.0)).astype(int)
+    codes = display_code(radiance, fix_window(DisplaySettings(tail=0.0), radiance)).astype(int)
     assert abs(codes[1] - codes[0]) <= 5
 
 

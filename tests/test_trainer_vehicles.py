@@ -19,7 +19,7 @@ from sensorsim.scene import LocalFrame
 from sensorsim.trainer.appearance import thermal_state
 from sensorsim.trainer.dis_feed import DisFeed
 from sensorsim.trainer.dis_listener import HeardEntity
-from sensorsim.trainer.fleet import EMISSIVITY, METAL, Fleet, skin_wall
+from sensorsim.trainer.fleet import EMISSIVITY, Fleet, skin_wall
 from sensorsim.trainer.frame_request import EntityRequest
 from sensorsim.trainer.host_state import Component
 from sensorsim.trainer.local_place import LocalPlace
@@ -28,7 +28,7 @@ from sensorsim.trainer.scene_pictures import ScenePictures
 from sensorsim.trainer.things import ENGINE, FIRE, Thing, things_asked, things_heard
 from sensorsim.trainer.udp import Endpoint
 from sensorsim.trainer.vehicle_file import part_of, read_vehicle
-from sensorsim.trainer.vehicle_shape import PARTS, VehicleShape, box, cylinder, face_area
+from sensorsim.trainer.vehicle_shape import METAL, PARTS, VehicleShape, box, cylinder, face_area
 from sensorsim.trainer.vehicles import built_in_vehicles
 
 TEN = 36000.0

@@ -14,9 +14,9 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from sensorsim.cli.options import (
+    AnyLevel,
     Backend,
     Effects,
-    Level,
     Preset,
     SceneName,
     bake_progress,
@@ -25,6 +25,7 @@ from sensorsim.cli.options import (
     make_folder,
     read_effects,
     read_moment,
+    read_scene,
     read_size,
 )
 from sensorsim.cli.render import read_camera
@@ -36,7 +37,8 @@ from sensorsim.frames.camera_path import CameraPath, read_camera_path
 from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
 from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
-from sensorsim.scene import Scene, load_scene
+from sensorsim.render.detail import DetailRule
+from sensorsim.scene import Scene
 from sensorsim.sensor import Sensor, load_sensor
 from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
@@ -56,6 +58,7 @@ class _Job:
     shots: tuple[Shot, ...]
     numbers: range
     options: SequenceOptions
+    detail: DetailRule
 
 
 def capture(
@@ -71,7 +74,7 @@ def capture(
     rate: Annotated[
         float | None, typer.Option(help="Frames per second along a path; its own times if left out.")
     ] = None,
-    level: Level = "IIIB",
+    level: AnyLevel = "IIIB",
     sensors: Annotated[str, typer.Option(help="Sensors, with commas between.")] = "flir",
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; each sensor's own if left out.")] = None,
     samples: Annotated[int, typer.Option(help="Samples per pixel's side of sensors with optics: 1, 3, 5 or 7.")] = 1,
@@ -92,7 +95,8 @@ def capture(
     _check(jobs, every, file_format, video)
     devices = [load_sensor(name) for name in sensors.split(",")]
     pixels = None if size is None else read_size(size)
-    moment, place = read_moment(at), load_scene(scene, level=level)
+    moment = read_moment(at)
+    place, detail = read_scene(scene, level)
     route = _route(place, path, rate, camera, moment, until, every)
     names = tuple(name for name in planes.split(",") if name)
     choice = read_effects(effects, names)
@@ -106,7 +110,7 @@ def capture(
     work = [
         _Job(
             world=world, sensor=device, size=pixels, samples=samples if device.detector else 1, backend=backend,
-            shots=shots, numbers=numbers, options=options,
+            shots=shots, numbers=numbers, options=options, detail=detail,
         )
         for world, device in zip(worlds, devices, strict=True)
         for numbers in blocks(len(shots))
@@ -203,5 +207,7 @@ def _outcomes(work: Sequence[_Job], jobs: int) -> Iterator[tuple[int, int]]:
 
 def _draw(job: _Job) -> tuple[int, int]:
     """One block: frames done, frames newly written."""
-    with Renderer(job.world, job.sensor, size=job.size, samples=job.samples, backend=job.backend) as renderer:
+    with Renderer(
+        job.world, job.sensor, size=job.size, samples=job.samples, backend=job.backend, detail=job.detail
+    ) as renderer:
         return len(job.numbers), draw_block(renderer, job.shots, job.numbers, job.options)

@@ -13,10 +13,18 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from sensorsim.effects import EffectChoice, read_choice
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
+from sensorsim.render.detail import DetailRule
+from sensorsim.scene import ALL_LEVELS, Scene, load_all_levels, load_scene
 from sensorsim.tables.bake import Progress as BakeProgress
 
 SceneName = Annotated[str, typer.Argument(help="Scene that comes with the package, or a GeoJSON file.")]
 Level = Annotated[str, typer.Option(help="Level of detail: IA, IIA or IIIB.")]
+AnyLevel = Annotated[
+    str,
+    typer.Option(
+        help="Level of detail: IA, IIA, IIIB, or auto: each feature as finely as its pixels show; auto:4 for 4."
+    ),
+]
 Preset = Annotated[str, typer.Option(help="How finely to bake: draft, report, standard or reference.")]
 Backend = Annotated[str, typer.Option(help="OpenGL back end: auto, egl, osmesa or x11.")]
 Effects = Annotated[
@@ -29,6 +37,18 @@ Visibility = Annotated[float, typer.Option(help="Meteorological range [km].")]
 Aerosol = Annotated[str, typer.Option(help="rural, urban, maritime, tropospheric, advection_fog or radiation_fog.")]
 TEMPERATURE_PLANES = frozenset({"surface_temperature", "fit_error"})  # a band that shows none has them on request
 AsJson = Annotated[bool, typer.Option("--json", help="Print figures as JSON.")]
+
+
+def read_scene(name: str, level: str) -> tuple[Scene, DetailRule]:
+    """A scene at one level, or for `auto` and auto:PIXELS at all of them, with the rule that chooses among them."""
+    word, _, pixels = level.partition(":")
+    if word != ALL_LEVELS:
+        return load_scene(name, level=level), DetailRule()
+    try:
+        rule = DetailRule(pixels=float(pixels)) if ":" in level else DetailRule()
+    except ValueError as error:
+        raise InputError("command line", "--level", level, "no number of pixels", "write auto or auto:4") from error
+    return load_all_levels(name), rule
 
 
 def read_size(text: str) -> tuple[int, int]:

@@ -11,11 +11,11 @@ from rich.console import Console
 
 from sensorsim.cli.options import (
     Aerosol,
+    AnyLevel,
     AsJson,
     Atmosphere,
     Backend,
     Effects,
-    Level,
     Preset,
     SceneName,
     Visibility,
@@ -25,6 +25,7 @@ from sensorsim.cli.options import (
     make_folder,
     read_effects,
     read_moment,
+    read_scene,
     read_size,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY
@@ -33,7 +34,7 @@ from sensorsim.frames import Frame, plane_names, require_writable, take_frame, w
 from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Renderer, build_world, station_camera
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, check_atmosphere
-from sensorsim.scene import Scene, load_scene
+from sensorsim.scene import Scene
 from sensorsim.sensor import DisplaySettings, Sensor, load_sensor, window_from_temperatures
 from sensorsim.tables import preset as bake_preset
 
@@ -44,7 +45,7 @@ def render(
         str, typer.Option(help="Local standard time, ISO 8601: 1976-02-07T10:00, or with its own UTC offset.")
     ],
     out: Annotated[Path, typer.Option(help="File of the picture: .png, or .exr, .npy, .tiff for planes alone.")],
-    level: Level = "IIIB",
+    level: AnyLevel = "IIIB",
     sensor: Annotated[
         str, typer.Option(help="Sensor that comes with the package (flir, lltv), or a TOML file.")
     ] = "flir",
@@ -58,7 +59,9 @@ def render(
         str | None, typer.Option(help="winter, summer, fall or a CSV file; by date if left out.")
     ] = None,
     planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
-    plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
+    plane_format: Annotated[
+        str, typer.Option(help="exr, npy, or png and tiff of 16 bits: centikelvin, counts.")
+    ] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
@@ -86,7 +89,7 @@ def render(
     require_writable(out, plane_names(device), planes=wanted, plane_format=plane_format)
     choice = read_effects(effects, wanted)
     moment = read_moment(at)
-    place = load_scene(scene, level=level)
+    place, detail = read_scene(scene, level)
     view = read_camera(place, camera, field_of_view)
     series = find_weather(weather, local_day(moment, place.site.utc_offset))
     day = local_day(moment, series.site.utc_offset)
@@ -100,7 +103,7 @@ def render(
         )  # fmt: skip
     for warning in world.warnings:
         Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
-    with Renderer(world, device, size=pixels, backend=backend, atmosphere=air) as renderer:
+    with Renderer(world, device, size=pixels, backend=backend, atmosphere=air, detail=detail) as renderer:
         frame = take_frame(renderer, view, moment, display=display, fit_error="fit_error" in wanted)
     files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)

@@ -49,6 +49,7 @@ DISPLAY = UniformBlock(
         Field("level", "float", "radiance of middle grey [W m-2 sr-1]"),
         Field("span", "float", "radiance from black to white [W m-2 sr-1]"),
         Field("black_hot", "float", "1 for black-hot polarity, 0 for white-hot"),
+        Field("detail", "float", "gain of what differs from a smooth base"),
     ),
 )
 

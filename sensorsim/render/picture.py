@@ -24,6 +24,7 @@ class Picture:
     time_of_day: float  # [s]
     camera: Camera
     illumination: Illumination
+    count_step: float | None = None  # band radiance of one count of the detector, where it is known [W m-2 sr-1]
     ledger: Ledger | None  # of the effects that are in it; frames for display alone have all, and none
 
 

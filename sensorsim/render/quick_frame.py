@@ -7,6 +7,7 @@ nearer one is shaded wherever it was drawn first, so near tiles and high feature
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -49,9 +50,10 @@ class QuickFrame:
         )  # fmt: skip
         plain = {"EMISSIVE": int(emissive), "PATH": 1, "MARKED": 1}
         self.backgrounds = [background_pass(ctx, generated, {**plain, "HORIZON": horizon}) for horizon in range(3)]
-        self.tiles = build_tiles(world.scene.mesh, *_kinds_and_heights(world))
-        mesh = world.scene.mesh
-        buffers = mesh_buffers(
+        mesh = self.mesh = world.scene.mesh
+        self.kind, self.height = _kinds_and_heights(world)
+        self.tiles = build_tiles(mesh, self.kind, self.height)
+        buffers = self.buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
         )
         self.passes = [
@@ -62,6 +64,13 @@ class QuickFrame:
             )
             for mirrors in (False, True)
         ]  # fmt: skip
+
+    def show_only(self, triangles: NDArray[np.bool_]) -> None:
+        """Draw these of the mesh's triangles (t,) from now on."""
+        some = replace(self.mesh, triangle=self.mesh.triangle[triangles])
+        self.tiles = build_tiles(some, self.kind[triangles], self.height[triangles])
+        assert self.buffers.index is not None
+        self.buffers.index.write(self.tiles.triangle)
 
     def settle(self, moment: int) -> None:
         """Compute the surfaces of the moment of that number, which the tables in use hold, unless they are there."""

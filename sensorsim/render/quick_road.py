@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from sensorsim.render.camera import Camera
 from sensorsim.render.quick_frame import QuickFrame
 from sensorsim.render.world import World
-from sensorsim.sensor import DisplaySettings, RowChain, Sensor, fix_window
+from sensorsim.sensor import AutoGain, DisplaySettings, RowChain, Sensor
 
 
 class QuickRoad:
@@ -17,10 +17,11 @@ class QuickRoad:
 
     def __init__(
         self, ctx: moderngl.Context, world: World, sensor: Sensor, size: tuple[int, int],
-        generated: Mapping[str, str], *, samples: int, energy: float,
+        generated: Mapping[str, str], *, samples: int, energy: float, gain: AutoGain,
     ) -> None:  # fmt: skip
         drawn = (samples * size[0], samples * size[1])
         self.frame = QuickFrame(ctx, world, drawn, generated, emissive=sensor.mode == "emissive")
+        self.gain = gain
         self.rows = RowChain(sensor, size, samples=samples, energy=energy)
 
     def show(
@@ -35,9 +36,11 @@ class QuickRoad:
         watch("read-back")
         signal = self.rows.run(stored, float(np.radians(camera.horizontal_field_of_view)), number)
         watch("sensor")
-        settings = fix_window(display, self.rows.seen(signal)) if display.is_automatic else display
+        seen = None if display.is_straight and not display.is_automatic else self.rows.seen(signal)
+        settings = display if seen is None else self.gain.window(display, seen)
+        curve = None if seen is None else self.gain.curve(settings, seen)
         watch("window")
-        codes = self.rows.show(settings)
+        codes = self.rows.show(settings, curve)
         watch("display")
         return codes, settings
 

@@ -22,6 +22,7 @@ from sensorsim.effects import (
     term_cost,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, longest_lead_in
+from sensorsim.errors import InputError
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.radiometry import build_band_table
 from sensorsim.scene import Scene
@@ -74,6 +75,7 @@ def survey_scene(
     With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
     """
     catalogue = load_catalogue() if catalogue is None else catalogue
+    _require_one_level(scene, settings, choice)
     mode = "emissive" if sensor is None else sensor.mode
     choice = _with_exchange(choice, settings)
     choice.require_inputs(sky=settings.sky, mode=mode, parts=None if sensor is None else sensor_parts(sensor))
@@ -102,6 +104,13 @@ def survey_scene(
         ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
         limits=limits,
     )
+
+
+def _require_one_level(scene: Scene, settings: BakeSettings, choice: EffectChoice) -> None:
+    """Refuse exchange between near surfaces where all levels of detail stand together."""
+    if scene.lineage is not None and (settings.exchange or "exchange" in choice.wanted):
+        problem = "its levels stand within each other, so what is near there is not near in a picture"
+        raise InputError(scene.name, "level", scene.level, problem, "name one level, or leave exchange out")
 
 
 def ground_plane(catalogue: Catalogue, season: Season) -> WallType:

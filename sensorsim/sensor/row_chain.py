@@ -16,12 +16,15 @@ from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
 from sensorsim.sensor import row_kernels
+from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
+from sensorsim.sensor.detail import enhance_detail
 from sensorsim.sensor.display import DisplaySettings, window_limits
 from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
 from sensorsim.sensor.focal_plane import column_places
 from sensorsim.sensor.memory import renewed_share
 from sensorsim.sensor.point_spread import blur_kernel
 from sensorsim.sensor.random_field import deviate_table
+from sensorsim.sensor.raster import is_plain, source_rows, weave
 from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, stream_seed
 from sensorsim.sensor.sensitivity import Sensitivity, sensitivity
 from sensorsim.sensor.sensor import Sensor
@@ -35,7 +38,6 @@ from sensorsim.sensor.spill import (
     halo_radius,
     kept_per_block,
 )
-from sensorsim.sensor.tone import tone_curve
 
 Single = NDArray[np.float32]
 MOST_THREADS = 8
@@ -59,13 +61,15 @@ class RowChain:
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
         self.light = np.zeros((height * samples, width * samples), np.float32)
         self.marked = np.zeros(self.light.shape, np.bool_)
-        self.focus, self.signal = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
         if sensor.detector is not None:
             self.look, self.corrected_at = sensitivity(sensor), correction_radiance(sensor)
             self.pattern = np.ascontiguousarray(np.moveaxis(fixed_pattern(sensor, size)[..., :3], 2, 0), np.float32)
             self.deviates = deviate_table().astype(np.float32)
+            self.neighbours = living_neighbours(self.pattern[2]) if sensor.noise.replaced else ()
 
     def release(self) -> None:
         """End the threads."""
@@ -97,7 +101,12 @@ class RowChain:
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
         light = self._spilled(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)))
         self._report(light, look, frame)
+        self._put_out(frame)
         return self.signal
+
+    def cut(self) -> None:
+        """Forget the frame before: the next one begins anew."""
+        self.last_frame = -1
 
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
@@ -106,18 +115,18 @@ class RowChain:
         here = picture[step // 2 :: step, step // 2 :: step]
         return sampled_surfaces(here, ~self.marked[middle, middle])
 
-    def show(self, settings: DisplaySettings) -> NDArray[np.uint8]:
-        """Display codes (height, width) of the last report through a fixed window."""
+    def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
+        """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
         low, high = window_limits(settings)
-        curve = np.zeros(0, np.float32)
-        if not settings.is_straight:
-            seen = self.seen(self.signal)
-            curve = tone_curve(settings.tone, settings.gamma, seen, low, high).astype(np.float32)
+        bent = np.zeros(0, np.float32) if curve is None else curve.astype(np.float32)
+        signal = self.signal
+        if settings.detail != 1.0:
+            signal = enhance_detail(signal, 0.5 * (low + high), high - low, settings.detail)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
         self._each(
             self.size[1],
-            lambda first, last: row_kernels.show(self.signal, curve, window, black_hot, first, last, codes),
+            lambda first, last: row_kernels.show(signal, bent, window, black_hot, first, last, codes),
         )
         return codes
 
@@ -142,9 +151,8 @@ class RowChain:
         """The light that the detector holds, with what is left of the frame before."""
         share = renewed_share(self.sensor)
         if share < 1.0:
-            follows = frame == self.last_frame + 1 and self.last_frame >= 0
+            follows = self._follows(frame)
             self.held = self.held + np.float32(share) * (self.focus - self.held) if follows else self.focus.copy()
-            self.last_frame = frame
             return self.held
         return self.focus
 
@@ -181,6 +189,19 @@ class RowChain:
         self._each(
             self.size[1],
             lambda first, last: row_kernels.report(
-                light, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.signal
+                light, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.reported
             ),
         )
+
+    def _put_out(self, frame: int) -> None:
+        """What stands for dead elements, and the lines that the frame brings."""
+        shown, scan = self.reported, self.sensor.scan
+        if self.neighbours:
+            shown = replace_dead(shown, self.neighbours)
+        if not is_plain(scan):
+            shown = weave(self.signal, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
+        self.signal, self.last_frame = shown, frame
+
+    def _follows(self, frame: int) -> bool:
+        """Whether what the last frame has left is that of the one before."""
+        return frame == self.last_frame + 1 and self.last_frame >= 0

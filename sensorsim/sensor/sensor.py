@@ -60,6 +60,11 @@ class Sensor:
         if self.detector is not None and self.mode == "reflective" and self.detector.kind != "photon":
             raise InputError(where, "detector.kind", self.detector.kind, "knows heat only", "use photon")
 
+    @property
+    def has_counts(self) -> bool:
+        """Whether it gives raw counts that 16 bits hold."""
+        return self.detector is not None and self.detector.bits <= 16
+
     def _check_field(self) -> None:
         """The field of view must be the detector's behind its lens, to a hundredth."""
         if self.optics is None or self.detector is None:

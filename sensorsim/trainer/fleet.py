@@ -8,18 +8,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.render import World
 from sensorsim.render.solids import Solids
 from sensorsim.tables.shade import surface_temperature
 from sensorsim.thermal.view_factors import quadrant_view_factors
+from sensorsim.trainer.articulation import posed
 from sensorsim.trainer.host_state import Triple
 from sensorsim.trainer.part_heat import Doing, excess_after, steady_excess
 from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude
 from sensorsim.trainer.things import Thing
-from sensorsim.trainer.vehicle_shape import VehicleShape, face_normal
+from sensorsim.trainer.vehicle_shape import METAL, VehicleShape, face_normal
 
-METAL = 12  # code of figure 9 of [Report1978]
 EMISSIVITY, SOLAR_REFLECTANCE, LOW_LIGHT_REFLECTANCE = 0.92, 0.25, 0.35  # of olive paint
 STANDS = 0.3  # [m s-1] below which a vehicle whose speed nobody said stands
 FASTEST = 80.0  # [m s-1]; a place further away is one that it was put to
@@ -60,18 +61,22 @@ class Fleet:
         self._known = {thing.key: self._now(thing, time, world, time_of_day) for thing in shown}
         if not shown:
             return None
-        shapes = [self._shapes[thing.model] for thing in shown]
-        triangles = np.concatenate([_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)])
-        known, even = [self._known[thing.key] for thing in shown], np.ones(len(triangles))
+        shapes, known = [self._shapes[thing.model] for thing in shown], [self._known[thing.key] for thing in shown]
+        placed = [_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)]
+        there = np.concatenate([seen for _, seen in placed])
+        if not there.any():
+            return None
+        triangles = np.concatenate([corners for corners, _ in placed])[there]
         heat = [one.faces.skin + one.excess[shape.part] for one, shape in zip(known, shapes, strict=True)]
+        even = np.ones(len(triangles))
         return Solids(
             triangles=triangles,
             normal=face_normal(triangles),
-            quarters=np.concatenate([one.faces.quarters for one in known]),
-            temperature=np.concatenate(heat),
+            quarters=np.concatenate([one.faces.quarters for one in known])[there],
+            temperature=np.concatenate(heat)[there],
             emissivity=EMISSIVITY * even,
             reflectance=LOW_LIGHT_REFLECTANCE * even,
-            number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes]),
+            number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes])[there],
         )
 
     def _now(self, thing: Thing, time: float, world: World, time_of_day: float) -> _Known:
@@ -89,14 +94,18 @@ class Fleet:
         return _Known(excess=excess, position=thing.position, speed=speed, time=time, faces=faces)
 
     def _faces(self, thing: Thing, before: _Faces | None, world: World, time_of_day: float) -> _Faces:
-        """The faces as last found, unless the vehicle turned, the clock went on or the world is another."""
+        """The faces as last found, unless the vehicle or a part turned, the clock went on or the world is another."""
         angles = np.rint(np.array(thing.angles) / TURN) * TURN
-        found_for = (thing.model, *angles.tolist(), time_of_day // SKIN_EVERY, world.inputs_sha256)
+        posture = tuple(
+            (number, tuple(round(angle / TURN) for angle in values[3:])) for number, _, values in thing.posture
+        )
+        found_for = (thing.model, *angles.tolist(), posture, time_of_day // SKIN_EVERY, world.inputs_sha256)
         if before is not None and before.found_for == found_for:
             return before
         shape = self._shapes[thing.model]
         first, second, third = angles.tolist()
-        normal = face_normal(shape.triangles) @ (ENU_FROM_NED @ attitude((first, second, third))).T
+        corners, _ = posed(shape.triangles, shape.joints, thing.posture)
+        normal = face_normal(corners) @ (ENU_FROM_NED @ attitude((first, second, third))).T
         wall, reflectance = np.full(len(normal), skin_wall(world)), np.full(len(normal), SOLAR_REFLECTANCE)
         skin = surface_temperature(world.tables, normal, wall, reflectance, time_of_day)
         return _Faces(found_for=found_for, skin=skin, quarters=quadrant_view_factors(normal))
@@ -131,6 +140,7 @@ def _speed(before: _Known, thing: Thing, elapsed: float) -> float:
     return float(before.speed + share * (new - before.speed))
 
 
-def _placed(shape: VehicleShape, thing: Thing) -> FloatArray:
-    """Triangles (t, 3, 3) east, north, up [m]."""
-    return np.asarray(shape.triangles @ (ENU_FROM_NED @ attitude(thing.angles)).T + np.array(thing.position))
+def _placed(shape: VehicleShape, thing: Thing) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Triangles (t, 3, 3) east, north, up [m], and which of them are there (t,)."""
+    corners, there = posed(shape.triangles, shape.joints, thing.posture)
+    return corners @ (ENU_FROM_NED @ attitude(thing.angles)).T + np.array(thing.position), there
