@@ -19,6 +19,7 @@ from sensorsim.effects import (
     Look,
     Mirrors,
     applicable,
+    brightest_glint,
     decide,
     emissive_bounds,
     reflective_bounds,
@@ -84,21 +85,17 @@ def frame_ledger(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
             tolerance=tolerance_of(sensor), unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
-    return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table, illumination)))
+    return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table)))
 
 
-def _chain_rows(
-    choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None, illumination: Illumination
-) -> tuple[LedgerRow, ...]:
+def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None) -> tuple[LedgerRow, ...]:
     """Rows of the parts of a sensor's chain; none for an ideal sensor."""
     parts = sensor_parts(sensor)
     if not parts:
         return ()
     if table is None:
-        glow = illumination.glow
         lit = (look.beam + 4.0 * float(look.quadrant.sum())) / PI + look.ground_radiance
-        brightest = lit + look.sky_range[1] + look.air.brightest
-        brightest += 0.0 if glow is None else float(glow.gradation.max() * glow.indicatrix.max())
+        brightest = lit + look.sky_range[1] + look.air.brightest + brightest_glint(look)
     else:
         brightest = float(table.radiance[-1])  # a frame beyond is refused
     state = sensitivity(sensor)
@@ -151,7 +148,7 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
         beam=illumination.beam,
         quadrant=np.asarray(illumination.quadrant),
         sky_radiance=illumination.sky_radiance,
-        sky_range=(float(sky.min()), float(sky.max())),
+        sky_range=(float(sky.min()), float(sky.max()) + illumination.brightest_glow),
         ground_radiance=illumination.ground_radiance,
         air=AirBefore(
             path=illumination.air,
@@ -167,7 +164,7 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
 def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:
     """Those of the surfaces that mirror."""
     codes, matt = surface_codes(assignment)[surface], assignment.emissivity[surface]
-    record, rise = gloss_records(codes, matt), rise_table()
+    record, rise = gloss_records(codes, matt, assignment.nir_reflectance[surface]), rise_table()
     glossy = record[:, 0] >= 0.0
     kind, along_normal = record[glossy, 0].astype(np.int64), record[glossy, 1]
     return Mirrors(
