@@ -67,13 +67,7 @@ def light_rows(
                 _surface(start, step, eye, plane, begin, end, away)
                 source[begin:end] = sends[0]
                 if which == 0 and gloss[place] >= 0:
-                    kind = gloss[place]
-                    if around[5].size == 1:
-                        rise, mirror = around[3][kind], around[4][kind]
-                        _mirror(ray, along, plane, sends, rise, mirror, begin, end, source)
-                    else:
-                        tables, beam = (around[3], around[4]), around[5][1]
-                        glossy(ray, along, plane, sends, kind, tables, air[1], beam, begin, end, source)
+                    _gleam(ray, along, plane, sends, gloss[place], around, air[1], begin, end, source)
             begin, run = end, run + 1
         if clear:
             light[y] = source
@@ -119,6 +113,19 @@ def _surface(start: Array, step: Array, eye: Array, plane: Array, begin: int, en
     nearest, farthest = max(distance - plane[7], 0.0) / (2.0 * corner), distance + plane[7]
     for x in range(begin, end):
         away[x] = min(max(off / (facing + x * slope), nearest), farthest)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gleam(
+    ray: Array, along: Array, plane: Array, sent: Array, kind: int, around: tuple[Array, ...], sun: Array, begin: int,
+    end: int, source: Array,
+) -> None:  # fmt: skip
+    """A glossy surface, by the band."""
+    _, _, _, rise, mirror, ground = around
+    if ground.size == 1:
+        _mirror(ray, along, plane, sent, rise[kind], mirror[kind], begin, end, source)
+    else:
+        glossy(ray, along, plane, sent, kind, (rise, mirror), sun, ground[1], begin, end, source)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
