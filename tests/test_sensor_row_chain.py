@@ -147,10 +147,8 @@ def test_codes_are_those_of_the_display(chains: list[RowChain], settings: Displa
     picture = rng.uniform(30.0, 60.0, (SIZE[1], SIZE[0])).astype(np.float32)
     run(chain, picture, 0)
     assert np.array_equal(chain.signal, picture)  # an ideal sensor
-    codes = chain.show(settings)
-    curve = None
-    if not settings.is_straight:
-        curve = np.linspace(0.0, 1.0, 512) ** (1.0 / settings.gamma)
+    curve = None if settings.is_straight else np.linspace(0.0, 1.0, 512) ** (1.0 / settings.gamma)
+    codes = chain.show(settings, curve)
     expected = display_code(picture, settings, curve)
     assert np.mean(codes != expected) < 2e-3
     assert np.abs(codes.astype(int) - expected).max() <= 1

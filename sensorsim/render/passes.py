@@ -29,6 +29,9 @@ TEXTURE_UNITS = {
     "block_picture": 14,
     "baseline_picture": 15,
     "halo_picture": 14,
+    "reported_picture": 13,
+    "means_picture": 13,
+    "raster_table": 14,
     "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
     "sky_indicatrix_table": 17,
     "rise_table": 18,

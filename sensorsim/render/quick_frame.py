@@ -6,14 +6,15 @@ is written wherever it was drawn first, so near tiles and high features are draw
 """
 
 import math
+from dataclasses import replace
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.gpu import mesh_buffers, render_target
-from sensorsim.render.blocks import VIEW_FRAME
-from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.blocks import VIEW_FRAME, view_frame
+from sensorsim.render.camera import Camera
 from sensorsim.render.passes import Pass
 from sensorsim.render.solids import Solids
 from sensorsim.render.tiles import build_tiles, visible_tiles
@@ -26,14 +27,15 @@ class QuickFrame:
     """Draws the numbers of the surfaces in a world's pictures of one size, in the renderer's context."""
 
     def __init__(self, ctx: moderngl.Context, world: World, size: tuple[int, int]) -> None:
-        mesh = world.scene.mesh
+        mesh = self.mesh = world.scene.mesh
         self.ctx, self.first = ctx, world.scene.surfaces.area.size
         self.box = mesh.position.min(axis=0), mesh.position.max(axis=0)
         self.target = render_target(ctx, size, {"number": "R32F"}, depth=True)
         self.stored = np.zeros((size[1], size[0]), np.float32)
         self.block = ctx.buffer(reserve=VIEW_FRAME.dtype.itemsize)
-        self.tiles = build_tiles(mesh, np.zeros(len(mesh.triangle), np.int64), _tops(world))
-        buffers = mesh_buffers(
+        self.top = _tops(world)
+        self.tiles = build_tiles(mesh, self.top)
+        buffers = self.buffers = mesh_buffers(
             ctx, {"position": mesh.position.astype(np.float32), "surface": mesh.surface}, self.tiles.triangle
         )
         self.surfaces = Pass(
@@ -41,18 +43,17 @@ class QuickFrame:
             mesh=buffers,
         )  # fmt: skip
 
+    def show_only(self, triangles: NDArray[np.bool_]) -> None:
+        """Draw these of the mesh's triangles (t,) from now on."""
+        some = replace(self.mesh, triangle=self.mesh.triangle[triangles])
+        self.tiles = build_tiles(some, self.top[triangles])
+        assert self.buffers.index is not None
+        self.buffers.index.write(self.tiles.triangle)
+
     def draw(self, camera: Camera, solids: Solids | None) -> None:
         """Draw what the camera sees into the target, and what stands among the surfaces."""
         box = self.box if solids is None else solids.box(*self.box)
-        near, far = clip_distances(camera, self.target.size, *box)
-        corner, right, up = camera.view_rays(self.target.size)
-        clip = camera.clip_from_camera(self.target.size, near, far)
-        self.block.write(
-            VIEW_FRAME.pack(
-                clip_from_camera=clip, camera_position=camera.position, view_corner=corner, view_right=right,
-                view_up=up,
-            )
-        )  # fmt: skip
+        self.block.write(view_frame(camera, self.target.size, *box))
         self.block.bind_to_uniform_block(VIEW_FRAME.binding)
         self.target.use()
         self.target.clear()

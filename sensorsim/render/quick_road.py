@@ -15,7 +15,7 @@ from sensorsim.render.quick_light import QuickLight
 from sensorsim.render.solids import Solids
 from sensorsim.render.surface_table import SurfaceRows
 from sensorsim.render.world import World
-from sensorsim.sensor import DisplaySettings, RowChain, Sensor, fix_window
+from sensorsim.sensor import AutoGain, DisplaySettings, RowChain, Sensor
 
 
 class QuickRoad:
@@ -23,10 +23,10 @@ class QuickRoad:
 
     def __init__(
         self, ctx: moderngl.Context, world: World, sensor: Sensor, size: tuple[int, int], rows: SurfaceRows,
-        planes: Planes, band_table: BandTable | None, *, samples: int, energy: float,
+        planes: Planes, band_table: BandTable | None, gain: AutoGain, *, samples: int, energy: float,
     ) -> None:  # fmt: skip
         drawn = (samples * size[0], samples * size[1])
-        self.frame = QuickFrame(ctx, world, drawn)
+        self.frame, self.gain = QuickFrame(ctx, world, drawn), gain
         self.rows = RowChain(sensor, size, samples=samples, energy=energy)
         self.light = QuickLight(world, drawn, rows, planes, band_table, self.rows.each)
 
@@ -44,9 +44,11 @@ class QuickRoad:
         watch("light")
         signal = rows.run(float(np.radians(camera.horizontal_field_of_view)), number)
         watch("sensor")
-        settings = fix_window(display, rows.seen(signal)) if display.is_automatic else display
+        seen = None if display.is_straight and not display.is_automatic else rows.seen(signal)
+        settings = display if seen is None else self.gain.window(display, seen)
+        curve = None if seen is None else self.gain.curve(settings, seen)
         watch("window")
-        codes = rows.show(settings)
+        codes = rows.show(settings, curve)
         watch("display")
         return codes, settings
 

@@ -16,14 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
-from sensorsim.sensor import row_kernels
+from sensorsim.sensor import detail_kernels, row_kernels
+from sensorsim.sensor.bloom import bloomed
+from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
+from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
+from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines
 from sensorsim.sensor.focal_plane import column_places
 from sensorsim.sensor.line_noise import LineNoise
 from sensorsim.sensor.memory import renewed_share
 from sensorsim.sensor.point_spread import blur_kernel
 from sensorsim.sensor.random_field import deviate_table
+from sensorsim.sensor.raster import is_plain, source_rows, weave
 from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, stream_seed
 from sensorsim.sensor.sensitivity import Sensitivity, sensitivity
 from sensorsim.sensor.sensor import Sensor
@@ -36,7 +40,6 @@ from sensorsim.sensor.spill import (
     halo_radius,
     kept_per_block,
 )
-from sensorsim.sensor.tone import tone_curve
 
 Single = NDArray[np.float32]
 MOST_THREADS = 8
@@ -60,9 +63,11 @@ class RowChain:
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
         self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
         self.surface = np.ones(self.light.shape, np.bool_)  # where one is seen, for the gain
-        self.focus, self.signal = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
+        self.places = np.arange(width) * samples + samples // 2  # sample that each column looks at
         if sensor.detector is not None:
             self._set_up(sensor)
 
@@ -76,6 +81,8 @@ class RowChain:
         self.streaks = np.zeros((height, -(-width // STREAK_BLOCK)), np.float32)
         self.halos = np.zeros((height, -(-width // HALO_BLOCK)), np.float32)
         self.spilled = np.zeros((height, width), np.float32)
+        self.woven = np.zeros((height, width), np.float32)
+        self.neighbours = living_neighbours(self.pattern[2]) if sensor.noise.replaced else ()
 
     def release(self) -> None:
         """End the threads."""
@@ -92,7 +99,7 @@ class RowChain:
             self.signal[:] = self.light
             return self.signal
         self._look_through(field)
-        row, column, reach, places = self.kernel
+        (row, column, reach), places = self.kernel, self.places
         self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
@@ -101,30 +108,53 @@ class RowChain:
         )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        self._report(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)), frame)
+        light = self._remembered(frame)
+        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+            light = bloomed(light, look.full, self.sensor.detector.blooming)
+        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
+        self._put_out(frame)
         return self.signal
+
+    def cut(self) -> None:
+        """Forget the frame before: the next one begins anew."""
+        self.last_frame = -1
 
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
-        middle = slice(self.samples // 2, None, self.samples)
-        step = self.samples if picture.shape != self.size[::-1] else 1
-        here = picture[step // 2 :: step, step // 2 :: step]
-        return sampled_surfaces(here, self.surface[middle, middle])
+        middle, every = slice(self.samples // 2, None, self.samples), sampled_lines(self.size[::-1])
+        columns = self.places[every]
+        here = picture[middle][every][:, columns] if picture is self.light else picture[every, every]
+        return of_surfaces(here, self.surface[middle][every][:, columns])
 
-    def show(self, settings: DisplaySettings) -> NDArray[np.uint8]:
-        """Display codes (height, width) of the last report through a fixed window."""
+    def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
+        """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
         low, high = window_limits(settings)
-        curve = np.zeros(0, np.float32)
-        if not settings.is_straight:
-            seen = self.seen(self.signal)
-            curve = tone_curve(settings.tone, settings.gamma, seen, low, high).astype(np.float32)
+        bent = np.zeros(0, np.float32) if curve is None else curve.astype(np.float32)
+        signal = self.signal if settings.detail == 1.0 else self._enhanced(low, high, settings.detail)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
         self.each(
             self.size[1],
-            lambda first, last: row_kernels.show(self.signal, curve, window, black_hot, first, last, codes),
+            lambda first, last: row_kernels.show(signal, bent, window, black_hot, first, last, codes),
         )
         return codes
+
+    def _enhanced(self, low: float, high: float, gain: float) -> Single:
+        """The last report with that gain of its detail, for a window from `low` to `high` [W m-2 sr-1]."""
+        share = (self.signal - np.float32(0.5 * (low + high))) / np.float32(high - low)
+        square, edge, more = share * share, np.array([EDGE], np.float32), np.array([(gain - 1.0) * (high - low)], "f4")
+        slope, offset, out = np.zeros_like(share), np.zeros_like(share), np.zeros_like(share)
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.fit_base(share, square, DETAIL_REACH, edge, first, last, slope, offset),
+        )
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.stretch_detail(
+                self.signal, share, slope, offset, DETAIL_REACH, more, first, last, out
+            ),
+        )
+        return out
 
     def each(self, rows: int, work: Callable[[int, int], Any]) -> None:
         """Do the work on all rows, shared by the threads; the caller's own takes the last part."""
@@ -143,17 +173,16 @@ class RowChain:
         kernel = blur_kernel(self.sensor, sample, rows=height, field=field, energy=self.energy)
         assert kernel is not None
         places = column_places(width, self.samples, field, equal_angle=self.sensor.scan.equal_angle)
-        row, column = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column)
-        self.kernel = row, column, kernel.row.shape[1] // 2, places.astype(np.uint32)
+        self.places = places.astype(np.int64)  # as a turning mirror places them
+        self.kernel = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column), kernel.row.shape[1] // 2
         self.field = field
 
     def _remembered(self, frame: int) -> Single:
         """The light that the detector holds, with what is left of the frame before."""
         share = renewed_share(self.sensor)
         if share < 1.0:
-            follows = frame == self.last_frame + 1 and self.last_frame >= 0
+            follows = self._follows(frame)
             self.held = self.held + np.float32(share) * (self.focus - self.held) if follows else self.focus.copy()
-            self.last_frame = frame
             return self.held
         return self.focus
 
@@ -178,7 +207,7 @@ class RowChain:
             elif sensor.scan.ac_coupling > 0.0:
                 seen = self._with_streaks(seen, level, first, last)
             row_kernels.report(
-                seen, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.signal
+                seen, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.reported
             )
 
         self.each(height, work)
@@ -203,3 +232,17 @@ class RowChain:
             first, last, self.spilled,
         )  # fmt: skip
         return self.spilled
+
+    def _put_out(self, frame: int) -> None:
+        """What stands for dead elements, and the lines that the frame brings."""
+        shown, scan = self.reported, self.sensor.scan
+        if self.neighbours:
+            shown = replace_dead(shown, self.neighbours)
+        if not is_plain(scan):
+            weave(self.woven, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
+            shown = self.woven
+        self.signal, self.last_frame = shown, frame
+
+    def _follows(self, frame: int) -> bool:
+        """Whether what the last frame has left is that of the one before."""
+        return frame == self.last_frame + 1 and self.last_frame >= 0
