@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from sensorsim.effects import EFFECTS
-from sensorsim.sensor import load_sensor, sensor_parts
+from sensorsim.sensor import sensor_parts
 from sensorsim.study.effects_cases import CASES, WITHOUT_PICTURE, Case, all_cases
 from sensorsim.study.effects_pairs import Pair, take_pairs
 from sensorsim.study.effects_pictures import HEAD, row, write_pictures_page
+from sensorsim.study.effects_sensors import study_sensor
 from sensorsim.study.effects_weather import DAYS, study_weather
 from sensorsim.tables import BakeSettings
 
@@ -19,7 +20,19 @@ COARSE = BakeSettings(
     interpolation="barycentric", lobes=0.0, orientations="report10", reflectances=(0.1, 0.5, 0.9), degree=2,
     step=1800.0, slice_interval=3600.0, lead_in_days=1.0,
 )  # fmt: skip
-LOOKED_AT = ("direct_sun", "sky_horizon", "reflected_sun", "atmosphere", "noise", "memory", "halo", "specular")
+LOOKED_AT = (
+    "direct_sun",
+    "sky_horizon",
+    "reflected_sun",
+    "atmosphere",
+    "noise",
+    "memory",
+    "halo",
+    "specular",
+    "interlace",
+    "dead_elements",
+    "replacement",
+)
 
 
 @cache
@@ -36,14 +49,14 @@ def test_every_effect_has_a_picture_or_a_reason_why_not() -> None:
 
 
 def test_effects_of_both_bands_have_a_picture_in_both() -> None:
-    for effect in ("atmosphere", "snow", "blur", "noise", "memory"):
-        modes = {load_sensor(case.sensor).mode for case in CASES if case.effect == effect}
+    for effect in ("atmosphere", "snow", "blur", "noise", "memory", "interlace"):
+        modes = {study_sensor(case.sensor).mode for case in CASES if case.effect == effect}
         assert modes == {"emissive", "reflective"}, effect
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.effect}-{case.sensor}")
 def test_case_names_a_sensor_that_has_the_effect_and_a_day_that_there_is(case: Case) -> None:
-    effect, sensor = next(one for one in EFFECTS if one.name == case.effect), load_sensor(case.sensor)
+    effect, sensor = next(one for one in EFFECTS if one.name == case.effect), study_sensor(case.sensor)
     assert effect.mode in (None, sensor.mode)
     assert not effect.part or effect.name in sensor_parts(sensor)
     assert effect.sky in (None, case.sky)

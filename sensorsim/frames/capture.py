@@ -104,6 +104,8 @@ def request_settings(
         "samples": renderer.samples,
         "frame": frame,
         "air": renderer.atmosphere,
+        "visibility_m": world.environment.visibility,
+        "aerosol": world.environment.aerosol,
         "camera": _camera_settings(renderer, camera),
         "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
     }

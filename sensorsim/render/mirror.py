@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from sensorsim.environment import SUN_RADIUS, SkyGlow
 from sensorsim.materials.facets import ANGLE_ENTRIES, facets, lobe_spread
@@ -96,10 +97,10 @@ def _all_around(sky: FloatArray, below: float) -> FloatArray:
 
 
 @lru_cache(maxsize=64)
-def _lobe(spread: float) -> FloatArray:
+def _lobe(spread: float) -> csr_array:
     """Shares (MIRROR_ENTRIES, MIRROR_ENTRIES) that a lobe around each mirror direction has in each elevation."""
     if spread == 0.0:
-        return np.eye(MIRROR_ENTRIES)
+        return csr_array(np.eye(MIRROR_ENTRIES))
     middle = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)[:, None, None]
     off = np.radians(min(_FARTHEST * spread, 90.0)) * (np.arange(_RINGS) + 0.5) / _RINGS
     around = np.pi * (np.arange(_SECTORS) + 0.5) / _SECTORS
@@ -112,4 +113,4 @@ def _lobe(spread: float) -> FloatArray:
     share = np.zeros((MIRROR_ENTRIES, MIRROR_ENTRIES))
     np.add.at(share, (row, low), weight * (1.0 - (place - low)))
     np.add.at(share, (row, low + 1), weight * (place - low))
-    return share
+    return csr_array(share)

@@ -17,6 +17,7 @@ from sensorsim.effects import (
     apparent_factor,
     applicable,
     decide,
+    film_bound,
     march_cost,
     surface_bounds,
     term_cost,
@@ -88,7 +89,7 @@ def survey_scene(
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = ground_plane(catalogue, season)
-    situation = _situation(environment, scene, assignment, ground, settings)
+    situation = _held(_situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor))
     limits = situation.limits
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
     bounds = _worth(situation, limits, choice, sensor)
@@ -140,6 +141,16 @@ def _situation(
         faces=scene_faces(environment, assignment, shown, settings),
         ground=ground_face(environment, ground, settings),
     )
+
+
+def _held(situation: Situation, choice: EffectChoice, tolerance: float) -> Situation:
+    """The situation with the wind's film, where neither the user nor the bounds can leave it out.
+
+    Near surfaces that see each other may be warmer than any alone: limits then go by emission.
+    """
+    kept = choice.asked("forced_convection")
+    kept = film_bound(situation).value > tolerance if kept is None else kept
+    return replace(situation, film_kept=kept and choice.asked("exchange") is not True)
 
 
 def _scope(

@@ -11,7 +11,7 @@ class Case:
     """One effect in one band. The scene is the hospital, level IIIB."""
 
     effect: str
-    sensor: str
+    sensor: str  # of effects_sensors
     weather: str  # of effects_weather
     hour: float
     camera: str  # of the scene, or 'behind' and 'into the sun': see effects_pairs
@@ -67,7 +67,7 @@ CASES = (
     _light("snow", "snow", 13.0, "tower", "Snow makes the ground brighter than any wall, and lights walls from below."),
     _warm("exchange", "winter", 7.0, "tower",
           "Walls that stand close to others are warmer before dawn: they see each other in place of sky and ground."),
-    _warm("interior", "winter", 7.0, "hospital", "Heated walls leak: without rooms behind they are a little colder."),
+    _warm("interior", "winter", 7.0, "hospital", "Heated walls leak: with no rooms behind them they are a bit colder."),
     _warm("reflected_sky", "winter", 7.0, "cement_plant",
           "Without what they mirror surfaces look colder by their reflectance; bare metal sheds by far the most."),
     _warm("specular", "winter", 13.0, "cement_plant",
@@ -82,6 +82,11 @@ CASES = (
     _part("memory", "sit1977", 10.0, "The tube still holds a share of the frame before: double edges.", turn=0.3),
     _part("streaks", "flir1977", 13.0,
           "Rows that hold hot walls are darkened, to their right most; the cold sky comes to the ground's level."),
+    _part("interlace", "sit1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
+    _part("interlace", "flir1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
+    _part("raster_lines", "sit1977, coarse", 10.0, "Lines three rows high: steps along slanted edges."),
+    _part("dead_elements", "uncooled, blind", 10.0, "Black points all over, in the same places in every frame."),
+    _part("replacement", "uncooled, repaired", 10.0, "The black points are gone: their neighbours stand for them."),
     _part("halo", "sit1977", 16.5, "Light of the haze below the low sun, which saturates the tube, spills over roofs.",
           "into the sun"),
 )  # fmt: skip

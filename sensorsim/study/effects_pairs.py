@@ -17,6 +17,7 @@ from sensorsim.render import Camera, Picture, Renderer, World, build_world, look
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import Sensor, load_sensor
 from sensorsim.study.effects_cases import Case, all_cases
+from sensorsim.study.effects_sensors import study_sensor
 from sensorsim.study.effects_weather import study_weather
 from sensorsim.tables import BakeSettings
 
@@ -75,7 +76,7 @@ def take_pairs(
     for done, case in enumerate(shown):
         if progress is not None:
             progress(f"{case.effect}, {case.sensor}", done, len(shown))
-        sensor = load_sensor(case.sensor)
+        sensor = study_sensor(case.sensor)
         on, off = _choices(case.effect, sensor)
         whole = world(case.weather, case.sky, sensor.mode, on)
         if case.effect in OF_FRAMES:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sensorsim.effects import NOT_MODELLED
-from sensorsim.sensor import load_sensor
 from sensorsim.study.effects_cases import WITHOUT_PICTURE
-from sensorsim.study.effects_pairs import Pair
+from sensorsim.study.effects_pairs import FloatArray, Pair
+from sensorsim.study.effects_sensors import study_sensor
 from sensorsim.study.page import Page
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 HEAD = ("effect", "sensor", "day and hour", "RMS", "greatest", "bound", "unit")
 SHOWN = (2.0, 98.0)  # [%] of the surfaces' values that the grey scale spans
-CLEAR = 99.5  # [%] of the changes that the colour scale spans
+CLEAR, SLIGHT = 99.5, 1e-3  # [%] of the changes that the colour scale spans, of those above a share of the greatest
 
 
 def write_pictures_page(path: Path, pairs: Iterable[Pair]) -> list[tuple[str | float, ...]]:
@@ -33,7 +33,7 @@ def write_pictures_page(path: Path, pairs: Iterable[Pair]) -> list[tuple[str | f
     rows: list[tuple[str | float, ...]] = []
     for pair in pairs:
         rows.append(row(pair))
-        figures.heading(f"{pair.case.effect}, {load_sensor(pair.case.sensor).title}")
+        figures.heading(f"{pair.case.effect}, {study_sensor(pair.case.sensor).title}")
         figures.text(pair.case.look_for)
         figures.figure(_plot(pair), _caption(pair))
     page.table(HEAD, rows, alarm=[_beyond(cells) for cells in rows])
@@ -72,7 +72,7 @@ def _plot(pair: Pair) -> "Figure":
     panels = figure.subplots(1, 3)
     seen = np.concatenate([picture[pair.surface] for picture in (pair.on, pair.off)] or [pair.on.ravel()])
     low, high = np.percentile(seen, SHOWN)
-    reach = max(float(np.percentile(np.abs(pair.change), CLEAR)), 1e-6 * max(abs(high), 1e-12))
+    reach = _reach(np.abs(pair.change), least=1e-6 * max(abs(high), 1e-12))
     for axes, picture, title in zip(panels, (pair.on, pair.off), ("on", "off"), strict=False):
         grey = axes.imshow(picture, cmap="gray", vmin=low, vmax=max(high, low + 1e-6 * abs(low)))
         axes.set_title(title)
@@ -83,3 +83,9 @@ def _plot(pair: Pair) -> "Figure":
     for axes in panels:
         axes.set_axis_off()
     return figure
+
+
+def _reach(change: FloatArray, *, least: float) -> float:
+    """End of the colour scale."""
+    seen = change[change > SLIGHT * change.max()]
+    return max(float(np.percentile(seen, CLEAR)), least) if seen.size else least
