@@ -53,7 +53,7 @@ def test_shading_once_a_surface_is_shading_every_pixel(
     drawn = renderer.render(VIEWS[view], time, planes=("display",))
     assert renderer._quick is not None
     rows = renderer._quick.rows
-    np.testing.assert_array_equal(rows.marked, whole.planes["surface_id"] < 0)
+    np.testing.assert_array_equal(rows.surface, whole.planes["surface_id"] >= 0)
     if renderer.band_table is None:
         assert rows.light == pytest.approx(
             whole.planes["radiance"], rel=2e-5
@@ -120,7 +120,7 @@ def test_clock_that_moves_uploads_one_slice_and_frames_for_display_alone_nothing
     slice_size = sum(4 * texels.size for texels in shade_texels(town().tables, 0.0).values())
     moment = renderer._moment
     light = sum(4 * moment.textures[name].width * moment.textures[name].height for name in moment.textures
-                if name.startswith("sky_") or name == "mirror_table")  # fmt: skip
+                if name.startswith("sky_") or name in ("mirror_table", "rise_table"))  # fmt: skip
     before = moment.uploaded
     for second in range(1, 20):
         renderer.render(VIEWS["down"], 864.0 * second - 100.0, planes=("display",))
@@ -163,4 +163,6 @@ def test_frame_of_chosen_planes_has_them_and_its_settings(renderers: dict[str, R
         frame = take_frame(renderers["flir"], VIEWS["down"], NOON, planes=wanted)
         assert set(frame.planes) == set(wanted)
         assert frame.settings["request_sha256"] == whole.settings["request_sha256"]
-        np.testing.assert_array_equal(frame.plane("display").data, whole.plane("display").data)
+        off = np.abs(frame.plane("display").data.astype(int) - whole.plane("display").data)
+        assert off.max() <= (1 if wanted == ["display"] else 0)
+        assert np.mean(off > 0) < 0.01

@@ -158,7 +158,7 @@ def test_sky_is_marked_and_left_out_of_the_gain(chains: list[RowChain]) -> None:
     chain = chain_for(chains, "flir")
     picture = np.full((SIZE[1], SIZE[0]), 40.0, dtype=np.float32)
     picture[:10] = 7.0
-    chain.marked[:10] = True
+    chain.surface[:10] = False
     run(chain, picture, 0)
     assert np.array_equal(chain.signal, picture)
     assert np.unique(chain.seen(chain.signal)).tolist() == [40.0]

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from datetime import timedelta
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -29,6 +30,7 @@ from sensorsim.frames.camera_path import read_camera_path
 from sensorsim.render import World, build_world
 from sensorsim.sensor import Sensor, load_sensor
 from sensorsim.sensor.load import sensor_names
+from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
 from sensorsim.tables.bake import Progress
 from sensorsim.viewer import Place, ViewState, read_script
@@ -73,17 +75,7 @@ def view(
     sensors, pixels = _sensors(sensor), read_size(size)
     ground, rule = read_scene(scene, level)
     place = replace(_place(at, weather, ground.level, ground.site.utc_offset), choice=read_choice(effects))
-    settings = bake_preset(preset)
-
-    def build(asked: Place, progress: Progress) -> World:
-        series = read_weather(asked.weather)
-        whole, _ = read_scene(scene, asked.level)
-        baked = build_world(
-            whole, series, image_day=asked.day, settings=settings, progress=progress,
-            effects=baked_choice(asked.choice),
-        )  # fmt: skip
-        return with_choice(baked, asked.choice)
-
+    build = partial(_build, scene, bake_preset(preset))
     opening, first = read_camera(ground, camera, None), load_sensor(sensor).name
     options = viewer_options(
         size=pixels, folder=out, sensors=sensors, days=choosable_days(place.weather, place.day), build=build,
@@ -100,6 +92,16 @@ def view(
         sensors=(first, "lltv" if first != "lltv" else "flir"), scale=scale,
     )  # fmt: skip
     run_viewer(world, state, options)
+
+
+def _build(scene: str, settings: BakeSettings, asked: Place, progress: Progress) -> World:
+    """The world of a place; the baker calls it from a thread."""
+    whole, _ = read_scene(scene, asked.level)
+    baked = build_world(
+        whole, read_weather(asked.weather), image_day=asked.day, settings=settings, progress=progress,
+        effects=baked_choice(asked.choice),
+    )  # fmt: skip
+    return with_choice(baked, asked.choice)
 
 
 def _window_parts() -> tuple[Any, Any]:

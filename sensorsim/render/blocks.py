@@ -27,6 +27,7 @@ ILLUMINATION = UniformBlock(
         Field("beam", "float", "irradiance normal to the sun [W m-2]"),
         Field("sky_radiance", "float", "of the sky, mean over a horizontal surface's hemisphere [W m-2 sr-1]"),
         Field("ground_radiance", "float", "of the ground plane [W m-2 sr-1]"),
+        Field("mirrors", "float", "1 where glossy surfaces mirror in reflective bands, 0 where they are matt"),
     ),
 )
 
@@ -69,6 +70,7 @@ DETECTION = UniformBlock(
         Field("renewed", "float", "share of a picture that is new one frame later"),
         Field("kept", "float", "share of a channel's level that is left a block later"),
         Field("level", "float", "radiance that stands for a channel's level [W m-2 sr-1]"),
+        Field("blooming", "float", "share of the charge above full that spills along the column"),
         Field("halo_share", "float", "of the light above full that comes back as a halo"),
         Field("halo_radius", "float", "of the halo [blocks]"),
         Field("frame", "uint", "number of the frame"),

@@ -25,9 +25,10 @@ class QuickRoad:
         self, ctx: moderngl.Context, world: World, sensor: Sensor, size: tuple[int, int], rows: SurfaceRows,
         planes: Planes, band_table: BandTable | None, gain: AutoGain, *, samples: int, energy: float,
     ) -> None:  # fmt: skip
-        self.frame, self.gain = QuickFrame(ctx, world, (samples * size[0], samples * size[1])), gain
+        drawn = (samples * size[0], samples * size[1])
+        self.frame, self.gain = QuickFrame(ctx, world, drawn), gain
         self.rows = RowChain(sensor, size, samples=samples, energy=energy)
-        self.light = QuickLight(world, rows, planes, band_table, self.rows.each)
+        self.light = QuickLight(world, drawn, rows, planes, band_table, self.rows.each)
 
     def show(
         self, camera: Camera, time_of_day: float, illumination: Illumination, display: DisplaySettings, number: int,
@@ -39,7 +40,7 @@ class QuickRoad:
         watch("draw")
         numbers = self.frame.read()
         watch("read-back")
-        self.light.fill(numbers, camera, time_of_day, illumination, solids, rows.light, rows.marked)
+        self.light.fill(numbers, camera, time_of_day, illumination, solids, rows.light, rows.surface)
         watch("light")
         signal = rows.run(float(np.radians(camera.horizontal_field_of_view)), number)
         watch("sensor")

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
 from sensorsim.sensor import detail_kernels, row_kernels
+from sensorsim.sensor.bloom import bloomed
 from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
 from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
+from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines
 from sensorsim.sensor.focal_plane import column_places
 from sensorsim.sensor.line_noise import LineNoise
 from sensorsim.sensor.memory import renewed_share
@@ -61,11 +62,12 @@ class RowChain:
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
         self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
-        self.marked = np.zeros(self.light.shape, np.bool_)  # where no surface is seen
+        self.surface = np.ones(self.light.shape, np.bool_)  # where one is seen, for the gain
         self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
         self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
+        self.places = np.arange(width) * samples + samples // 2  # sample that each column looks at
         if sensor.detector is not None:
             self._set_up(sensor)
 
@@ -97,7 +99,7 @@ class RowChain:
             self.signal[:] = self.light
             return self.signal
         self._look_through(field)
-        row, column, reach, places = self.kernel
+        (row, column, reach), places = self.kernel, self.places
         self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
@@ -106,7 +108,10 @@ class RowChain:
         )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        self._report(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)), frame)
+        light = self._remembered(frame)
+        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+            light = bloomed(light, look.full, self.sensor.detector.blooming)
+        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
         self._put_out(frame)
         return self.signal
 
@@ -116,10 +121,10 @@ class RowChain:
 
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
-        middle = slice(self.samples // 2, None, self.samples)
-        columns = self.kernel[-1] if self.sensor.scan.equal_angle else middle  # as the mirror places them
-        here = picture[middle][:, columns] if picture is self.light else picture
-        return sampled_surfaces(here, ~self.marked[middle][:, columns])
+        middle, every = slice(self.samples // 2, None, self.samples), sampled_lines(self.size[::-1])
+        columns = self.places[every]
+        here = picture[middle][every][:, columns] if picture is self.light else picture[every, every]
+        return of_surfaces(here, self.surface[middle][every][:, columns])
 
     def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
@@ -168,8 +173,8 @@ class RowChain:
         kernel = blur_kernel(self.sensor, sample, rows=height, field=field, energy=self.energy)
         assert kernel is not None
         places = column_places(width, self.samples, field, equal_angle=self.sensor.scan.equal_angle)
-        row, column = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column)
-        self.kernel = row, column, kernel.row.shape[1] // 2, places.astype(np.uint32)
+        self.places = places.astype(np.int64)  # as a turning mirror places them
+        self.kernel = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column), kernel.row.shape[1] // 2
         self.field = field
 
     def _remembered(self, frame: int) -> Single:

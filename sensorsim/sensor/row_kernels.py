@@ -27,31 +27,34 @@ def blur(
     that each column looks at. The picture's edge goes on beyond it.
     """
     (height, width), (ranks, taps) = picture.shape, row.shape
-    lines, wide = np.zeros((2, width + taps), picture.dtype), np.zeros(width, picture.dtype)
-    middle, others = lines[:, reach : reach + width], np.zeros(4, np.int64)
+    wide, others = np.zeros(width, picture.dtype), np.zeros(4, np.int64)
+    one, two = np.zeros(width + taps, picture.dtype), np.zeros(width + taps, picture.dtype)
     for y in range(first, last):
         top = samples * y + samples // 2 - reach
         wide[:] = 0.0
         for rank in range(0, ranks, 2):
-            middle[:] = 0.0
+            one[:], two[:] = 0.0, 0.0
             for tap in range(0, taps, 4):
                 for near in range(4):
                     others[near] = min(max(top + tap + near, 0), height - 1)
-                _across(picture, others, column[rank : rank + 2, tap : tap + 4], middle)
-            for line in lines:
+                weight = column[rank : rank + 2, tap : tap + 4]
+                _across(picture, others, weight, one[reach : reach + width], two[reach : reach + width])
+            for line in (one, two):
                 line[:reach], line[reach + width :] = line[reach], line[reach + width - 1]
             for tap in range(0, taps, 4):
-                _along(lines[:, tap:], row[rank : rank + 2, tap : tap + 4], wide)
+                _along(one[tap:], two[tap:], row[rank : rank + 2, tap : tap + 4], wide)
         target = out[y]
         for x in range(places.size):
             target[x] = wide[places[x]]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def _across(picture: Array, rows: Array, weight: Array, out: Array) -> None:
-    """Add four rows of a picture to two lines (2, width), weights (2, 4): eight products for six loads."""
+def _across(picture: Array, rows: Array, weight: Array, one: Array, two: Array) -> None:
+    """Add four rows of a picture to two lines (width,), weights (2, 4): eight products for six loads.
+
+    Arrays of one dimension without gaps, here and below: others the compiler does not turn into vectors.
+    """
     a, b, c, d = picture[rows[0]], picture[rows[1]], picture[rows[2]], picture[rows[3]]
-    one, two = out[0], out[1]
     p0, p1, p2, p3 = weight[0, 0], weight[0, 1], weight[0, 2], weight[0, 3]
     q0, q1, q2, q3 = weight[1, 0], weight[1, 1], weight[1, 2], weight[1, 3]
     for x in range(one.size):
@@ -61,9 +64,9 @@ def _across(picture: Array, rows: Array, weight: Array, out: Array) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def _along(lines: Array, weight: Array, out: Array) -> None:
+def _along(one: Array, two: Array, weight: Array, out: Array) -> None:
     """Add to a line (width,) four neighbours in each of two lines, weights (2, 4)."""
-    width, one, two = out.size, lines[0], lines[1]
+    width = out.size
     a, b, c, d = one[:width], one[1 : 1 + width], one[2 : 2 + width], one[3 : 3 + width]
     e, f, g, h = two[:width], two[1 : 1 + width], two[2 : 2 + width], two[3 : 3 + width]
     p0, p1, p2, p3 = weight[0, 0], weight[0, 1], weight[0, 2], weight[0, 3]
@@ -80,7 +83,7 @@ def padded(weights: Array) -> NDArray[np.float32]:
     return np.ascontiguousarray(filled, np.float32)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc"})
 def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int, out: Array) -> None:
     """Level (height, blocks) that each row has settled to, as `spill.baseline`: its sum from block to block.
 

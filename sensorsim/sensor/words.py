@@ -6,20 +6,17 @@ from numba import types
 from numba.extending import intrinsic
 
 
-@intrinsic
-def plus(_typing: Any, _first: Any, _second: Any) -> Any:
+def _plus(_typing: Any, _first: Any, _second: Any) -> Any:
     """Sum of two uint32, without what is carried over."""
     return types.uint32(types.uint32, types.uint32), lambda _context, builder, _signature, given: builder.add(*given)
 
 
-@intrinsic
-def times(_typing: Any, _first: Any, _second: Any) -> Any:
+def _times(_typing: Any, _first: Any, _second: Any) -> Any:
     """Product of two uint32, its lower half."""
     return types.uint32(types.uint32, types.uint32), lambda _context, builder, _signature, given: builder.mul(*given)
 
 
-@intrinsic
-def folded(_typing: Any, _word: Any) -> Any:
+def _folded(_typing: Any, _word: Any) -> Any:
     """A uint32, its upper half laid over its lower one."""
 
     def build(_context: Any, builder: Any, _signature: Any, given: Any) -> Any:
@@ -27,3 +24,8 @@ def folded(_typing: Any, _word: Any) -> Any:
         return builder.xor(word, builder.lshr(word, word.type(16)))
 
     return types.uint32(types.uint32), build
+
+
+plus: Any = intrinsic(_plus)
+times: Any = intrinsic(_times)
+folded: Any = intrinsic(_folded)

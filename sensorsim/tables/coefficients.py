@@ -70,7 +70,10 @@ class ShadeTables:
         """From the solved orientations to those that are looked up."""
         if self.settings.interpolation != "spline" or coefficients.shape[1] == self.orientations.normal.shape[0]:
             return coefficients  # tables that were not baked have no more orientations than are looked up
-        return np.asarray(spline_matrix(self.settings.orientations, self.orientations.name) @ coefficients)
+        walls, count, powers = coefficients.shape
+        flat = coefficients.transpose(1, 0, 2).reshape(count, walls * powers)  # one product instead of one a wall
+        dense = spline_matrix(self.settings.orientations, self.orientations.name) @ flat
+        return np.asarray(dense.reshape(-1, walls, powers).transpose(1, 0, 2))
 
     @staticmethod
     def _between(values: NDArray[np.floating[Any]], index: int, share: float) -> FloatArray:

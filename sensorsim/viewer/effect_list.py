@@ -30,7 +30,7 @@ def effect_lines(ledger: Ledger, choice: EffectChoice) -> tuple[EffectLine, ...]
             name=row.effect,
             word=word_of(choice, row.effect),
             on=row.on,
-            bound=f"{row.bound:.2g} {row.unit}",
+            bound=f"{row.bound:.3g} {row.unit}",
             hint=f"{MEANING[row.effect]}\n{row.reason}\n"
             + ("of the walls: another choice bakes" if row.effect in _BAKED else "of each picture: no bake"),
         )
