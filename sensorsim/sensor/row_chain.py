@@ -21,7 +21,7 @@ from sensorsim.sensor.bloom import bloomed
 from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
 from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines, sampled_surfaces
+from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines
 from sensorsim.sensor.focal_plane import column_places
 from sensorsim.sensor.line_noise import LineNoise
 from sensorsim.sensor.memory import renewed_share
@@ -67,6 +67,7 @@ class RowChain:
         self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
+        self.places = np.arange(width) * samples + samples // 2  # sample that each column looks at
         if sensor.detector is not None:
             self._set_up(sensor)
 
@@ -98,7 +99,7 @@ class RowChain:
             self.signal[:] = self.light
             return self.signal
         self._look_through(field)
-        row, column, reach, places = self.kernel
+        (row, column, reach), places = self.kernel, self.places
         self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
@@ -120,15 +121,10 @@ class RowChain:
 
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
-        middle = slice(self.samples // 2, None, self.samples)
-        if not self.sensor.scan.equal_angle:
-            return sampled_surfaces(
-                picture[middle, middle] if picture is self.light else picture, self.surface[middle, middle]
-            )
-        line = sampled_lines(self.size)
-        columns = self.kernel[-1][line]  # as the mirror places them
-        here = picture[middle][line][:, columns] if picture is self.light else picture[line, line]
-        return of_surfaces(here, self.surface[middle][line][:, columns])
+        middle, every = slice(self.samples // 2, None, self.samples), sampled_lines(self.size[::-1])
+        columns = self.places[every]
+        here = picture[middle][every][:, columns] if picture is self.light else picture[every, every]
+        return of_surfaces(here, self.surface[middle][every][:, columns])
 
     def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
         """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
@@ -177,8 +173,8 @@ class RowChain:
         kernel = blur_kernel(self.sensor, sample, rows=height, field=field, energy=self.energy)
         assert kernel is not None
         places = column_places(width, self.samples, field, equal_angle=self.sensor.scan.equal_angle)
-        row, column = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column)
-        self.kernel = row, column, kernel.row.shape[1] // 2, places.astype(np.uint32)
+        self.places = places.astype(np.int64)  # as a turning mirror places them
+        self.kernel = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column), kernel.row.shape[1] // 2
         self.field = field
 
     def _remembered(self, frame: int) -> Single:
