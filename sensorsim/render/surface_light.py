@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import PI
+from sensorsim.materials.facets import ANGLE_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.illumination import Illumination
 from sensorsim.render.solids import Solids
@@ -17,6 +18,7 @@ from sensorsim.tables.shade import shade
 
 FloatArray = NDArray[np.float64]
 Single = NDArray[np.float32]
+COSINES = np.linspace(0.0, 1.0, ANGLE_ENTRIES)
 
 
 class SurfaceLight:
@@ -25,7 +27,8 @@ class SurfaceLight:
     def __init__(self, world: World, rows: SurfaceRows, band_table: BandTable | None) -> None:
         self.world, self.rows, self.band_table = world, rows, band_table
         count = rows.wall_type.size
-        self.sent = np.zeros((count, 2), np.float32)  # matt: radiance; glossy: black body's; emissivity of the glossy
+        # Matt: radiance. Glossy: a black body's, emissivity; or a facet's reflectance, radiance scattered below.
+        self.sent = np.zeros((count, 2), np.float32)
         self.known = np.zeros(count, np.bool_)
         self.moment: tuple[float, Illumination] | None = None
 
@@ -54,12 +57,27 @@ class SurfaceLight:
         rows = self.rows
         normal, sent = rows.normal[row], np.zeros((row.size, 2))
         if self.band_table is None:
-            sent[:, 0] = reflected(illumination, rows.nir_reflectance[row], normal, rows.quarters[row])
-            return sent
+            return self._mirrored_or_scattered(row, illumination)
         black = self.band_table.radiance_at(self._temperature(row, time_of_day))
         glossy = rows.gloss[row] >= 0
         sent[:, 0] = np.where(glossy, black, matt(illumination, black, rows.emissivity[row], normal))
         sent[:, 1] = rows.normal_emissivity[row]
+        return sent
+
+    def _mirrored_or_scattered(self, row: NDArray[np.int64], around: Illumination) -> FloatArray:
+        """In reflective bands: radiance of the matt; a facet's reflectance of the glossy and what they scatter."""
+        rows, sent = self.rows, np.zeros((row.size, 2))
+        sent[:, 0] = reflected(around, rows.nir_reflectance[row], rows.normal[row], rows.quarters[row])
+        glossy = np.flatnonzero(rows.gloss[row] >= 0)
+        if glossy.size:
+            row = row[glossy]
+            normal, kind, facet = rows.normal[row], rows.gloss[row], rows.facet_reflectance[row]
+            rises = around.mirror_tables(emissive=False)["rise_table"][kind]
+            cosine = np.maximum(normal @ around.sun_direction, 0.0)
+            risen = [np.interp(at, COSINES, rise[:-1]) for at, rise in zip(cosine, rises, strict=True)]
+            direct = around.beam * cosine * (1.0 - np.array(risen)) / rises[:, -1]
+            received = direct + diffuse(around, normal, rows.quarters[row])
+            sent[glossy] = np.column_stack([facet, (rows.nir_reflectance[row] - facet) * received / PI])
         return sent
 
     def _temperature(self, row: NDArray[np.int64], time_of_day: float) -> FloatArray:
@@ -84,5 +102,9 @@ def matt(around: Illumination, black: FloatArray, emissivity: FloatArray, normal
 def reflected(around: Illumination, reflectance: FloatArray, normal: FloatArray, quarters: FloatArray) -> FloatArray:
     """Radiance of Lambertian surfaces in a reflective band: direct sun, four quarters of the sky, sunlit ground."""
     direct = around.beam * np.maximum(normal @ around.sun_direction, 0.0)
-    from_ground = PI * around.ground_radiance * 0.5 * (1.0 - normal[:, 2])
-    return np.asarray(reflectance * (direct + 4.0 * (quarters @ around.quadrant) + from_ground) / PI)
+    return np.asarray(reflectance * (direct + diffuse(around, normal, quarters)) / PI)
+
+
+def diffuse(around: Illumination, normal: FloatArray, quarters: FloatArray) -> FloatArray:
+    """Irradiance of surfaces in a reflective band without the direct sun [W m-2]."""
+    return np.asarray(4.0 * (quarters @ around.quadrant) + PI * around.ground_radiance * 0.5 * (1.0 - normal[:, 2]))
