@@ -89,6 +89,9 @@ CASES = (
     _part("replacement", "uncooled, repaired", 10.0, "The black points are gone: their neighbours stand for them."),
     _part("halo", "sit1977", 16.5, "Light of the haze below the low sun, which saturates the tube, spills over roofs.",
           "into the sun"),
+    _part("blooming", "emccd, spilling", 16.5,
+          "The white of the bright haze grows upward and down, by the charge that its wells do not hold.",
+          "into the sun"),
 )  # fmt: skip
 
 WITHOUT_PICTURE: Mapping[str, str] = {

@@ -1,4 +1,4 @@
-"""Sensors of the pictures of effects: those that come with the package, and two with a fault or a coarse raster."""
+"""Sensors of the pictures of effects: those that come with the package, and some with a fault or a coarse raster."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -18,9 +18,16 @@ def _coarse(sensor: Sensor) -> Sensor:
     return replace(sensor, scan=replace(sensor.scan, lines=80))
 
 
+def _spilling(sensor: Sensor) -> Sensor:
+    detector = sensor.detector
+    assert detector is not None
+    return replace(sensor, detector=replace(detector, blooming=0.3))
+
+
 VARIANTS: Mapping[str, tuple[str, Callable[[Sensor], Sensor], str]] = {
     "uncooled, blind": ("uncooled", _blind, "with 0.3 % of its elements dead"),
     "uncooled, repaired": ("uncooled", _repaired, "with 0.3 % of its elements dead and replaced"),
+    "emccd, spilling": ("emccd", _spilling, "with 0.3 of what its wells do not hold in others"),
     "sit1977, coarse": ("sit1977", _coarse, "with a raster of 80 lines"),
 }
 
