@@ -3,6 +3,7 @@
 import hashlib
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import imageio.v3 as imageio
@@ -15,11 +16,11 @@ from sensorsim.errors import InputError
 from sensorsim.frames import read_plane
 from sensorsim.frames.difference import compare_frames, difference
 from sensorsim.frames.frame import Plane
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path, warm_up
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks, warm_up
 from sensorsim.frames.side_by_side import beside, join_frames
 from sensorsim.frames.video import write_video
 from sensorsim.render import Renderer, look_at
-from sensorsim.sensor import load_sensor
+from sensorsim.sensor import DisplaySettings, load_sensor
 
 AT = "1976-02-07T10:00"
 SIZE = (32, 24)
@@ -45,8 +46,17 @@ def draw(folder: Path, name: str, numbers: range = range(4), **options: object) 
 
 
 def test_blocks_cover_every_frame_once() -> None:
-    assert [number for block in blocks(75) for number in block] == list(range(75))
-    assert blocks(0) == []
+    shots = tuple(Shot(number=k, time_of_day=k / 30.0, camera=VIEWS[0]) for k in range(75))
+    for display, size in (
+        (DisplaySettings(), 32),
+        (DisplaySettings(settle=0.1), 48),
+        (DisplaySettings(settle=9.0), 75),
+    ):
+        sensor = replace(load_sensor("flir"), display=display)
+        blocks = sequence_blocks(sensor, shots)
+        assert [number for block in blocks for number in block] == list(range(75))
+        assert len(blocks[0]) == size
+        assert sequence_blocks(sensor, ()) == []
 
 
 @pytest.mark.parametrize("name", ["flir", "uncooled"])
@@ -189,6 +199,48 @@ def test_diff_refuses_what_has_no_plane_in_common(tmp_path: Path) -> None:
         compare_frames(tmp_path / "flir_000000.npy", tmp_path / "flir_000001.npy")
     with pytest.raises(InputError, match=r"missing|No such file"):
         compare_frames(tmp_path / "flir_000000.npy", tmp_path / "nothing.png")
+
+
+def test_frames_do_not_depend_on_where_work_is_cut_whatever_shows_in_them(tmp_path: Path) -> None:
+    """Fields of an interlaced sensor, a tube's lag, and a gain that settles over many frames."""
+    slow = DisplaySettings(settle=0.02)
+    for name in ("flir1977", "sit1977"):
+        draw(tmp_path / "one", name, display=slow)
+        draw(tmp_path / "two", name, range(3, 4), display=slow)
+        draw(tmp_path / "quick", name)
+        file = frame_path(SequenceOptions(folder=tmp_path), load_sensor(name), 3).name
+        assert digests(tmp_path / "two")[file] == digests(tmp_path / "one")[file]
+        assert digests(tmp_path / "quick")[file] != digests(tmp_path / "one")[file]
+
+
+def test_frames_that_show_in_others_are_those_of_the_last_moments() -> None:
+    steps = {"quick": 1.0 / 30.0, "slow": 0.2, "rare": 900.0}
+    shots = {
+        name: [Shot(number=k, time_of_day=step * k, camera=VIEWS[0]) for k in range(90)] for name, step in steps.items()
+    }
+    flir, sit, still = load_sensor("flir1977"), load_sensor("sit1977"), DisplaySettings(settle=0.5)
+    assert warm_up(flir, shots["quick"], 80) == 1  # the other field
+    assert warm_up(flir, shots["quick"], 0) == 0
+    assert warm_up(sit, shots["quick"], 80) > 2
+    assert warm_up(sit, shots["slow"], 80) == warm_up(flir, shots["rare"], 80) == 0
+    assert warm_up(load_sensor("flir"), shots["quick"], 80, still) == 60  # MEMORY times half a second
+    assert warm_up(load_sensor("flir"), shots["slow"], 80, still) == 10
+    assert warm_up(load_sensor("flir"), shots["rare"], 80, still) == 0
+    assert warm_up(flir, shots["quick"], 80, still) == 61
+
+
+def test_frames_far_apart_are_drawn_alone(tmp_path: Path) -> None:
+    """An hour's timelapse of a bolometer: the one that is missing, and no other."""
+    shots = tuple(Shot(number=s.number, time_of_day=36000.0 + 900.0 * s.number, camera=s.camera) for s in SHOTS)
+    with Renderer(town(), load_sensor("uncooled"), size=SIZE) as renderer:
+        assert draw_block(renderer, shots, range(4), SequenceOptions(folder=tmp_path)) == 4
+        (tmp_path / "uncooled_000003.json").unlink()
+        before = digests(tmp_path)
+        looks: list[int] = []
+        renderer.watch = lambda stage: looks.append(1) if stage == "moment" else None
+        assert draw_block(renderer, shots, range(4), SequenceOptions(folder=tmp_path)) == 1
+    assert len(looks) == 1
+    assert {**before, "uncooled_000003.json": digests(tmp_path)["uncooled_000003.json"]} == digests(tmp_path)
 
 
 def test_two_sensors_side_by_side_show_the_same_moments_from_the_same_place(

@@ -65,7 +65,7 @@ def test_part_that_is_left_out_changes_the_signal_by_less_than_its_bound(
     assert np.array_equal(whole[1].planes["radiance"], lean[1].planes["radiance"])
 
 
-@pytest.mark.parametrize("sensor", ["uncooled", "emccd", "cooled_mwir"])
+@pytest.mark.parametrize("sensor", ["uncooled", "emccd", "cooled_mwir", "flir1977"])
 def test_chain_without_its_parts_is_the_picture_in_counts(sensor: str, tmp_path: Path) -> None:
     """To half a count, and a hundredth for single precision."""
     look = sensitivity(load_sensor(sensor))

@@ -39,6 +39,11 @@ def ctx():
     context.release()
 
 
+def run_rows(rows: RowChain, picture: np.ndarray, frame: int) -> np.ndarray:
+    rows.light[:] = picture
+    return rows.run(FIELD, frame)
+
+
 def with_dead(name: str, share: float, *, replaced: bool) -> Sensor:
     sensor = load_sensor(name)
     return replace(sensor, noise=replace(sensor.noise, dead=share, replaced=replaced))
@@ -75,10 +80,10 @@ def test_woven_pictures_are_their_twin_on_both_roads(ctx, sensor: Sensor) -> Non
         source = source_rows(light.scan, SIZE[1], frame, follows=frame not in (4, 9))
         for one in (chain, plain):
             one.run(picture_texture(ctx, picture), FIELD, frame)
-        shown = weave(shown, plain.read(plain.output), source)
+        weave(shown, plain.read(plain.output), source)
         assert np.array_equal(chain.read(chain.output), shown)
-        shown_rows = weave(shown_rows, plain_rows.run(picture[::-1], FIELD, frame), source)
-        assert np.array_equal(rows.run(picture[::-1], FIELD, frame), shown_rows)
+        weave(shown_rows, run_rows(plain_rows, picture, frame), source)
+        assert np.array_equal(run_rows(rows, picture, frame), shown_rows)
     for one in (rows, plain_rows):
         one.release()
 
@@ -91,7 +96,7 @@ def test_rows_replace_the_dead_as_the_shader_does(ctx) -> None:
     sensor = with_dead("cooled_mwir", 0.02, replaced=True)
     picture = scene(1, 0.2, 0.8)
     rows = RowChain(sensor, SIZE, energy=0.95, threads=2)
-    signal = rows.run(picture[::-1], FIELD, 3)
+    signal = run_rows(rows, picture, 3)
     assert np.array_equal(signal, replace_dead(rows.reported, living_neighbours(rows.pattern[2])))
     chain = SensorChain(ctx, sensor, SIZE, energy=0.95)
     chain.run(picture_texture(ctx, picture), FIELD, 3)
@@ -109,7 +114,7 @@ def test_detail_is_its_twin_on_both_roads(ctx, settings: DisplaySettings) -> Non
     enhanced = enhance_detail(picture.astype(np.float64), settings.level, settings.span, settings.detail)
     twin = display_code(enhanced, settings).astype(int)
     rows = RowChain(load_sensor("flir"), SIZE, threads=2)
-    rows.run(np.ascontiguousarray(picture[::-1]), FIELD, 0)
+    run_rows(rows, picture, 0)
     for codes in (DisplayStage(ctx, SIZE).show(picture_texture(ctx, picture), settings, None), rows.show(settings)):
         assert np.abs(codes - twin).max() <= 1
         assert np.mean(codes != twin) < 0.01

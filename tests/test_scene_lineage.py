@@ -44,7 +44,7 @@ def test_scene_of_all_levels_holds_each_level_whole(hospital: Scene) -> None:
 
 
 def test_audit_of_kin_of_the_hospital(hospital: Scene) -> None:
-    """All but nine solids of the finer levels have kin, four of them as neighbours; one wood has no finer counterpart."""
+    """All but nine solids of the finer levels have kin, four of them as neighbours; one wood has no finer part."""
     lineage = lineage_of(hospital)
     counts = [{kin: int(np.sum((lineage.level == level) & (lineage.kin == kin))) for kin in np.unique(lineage.kin)}
               for level in range(3)]  # fmt: skip

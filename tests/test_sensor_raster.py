@@ -48,7 +48,7 @@ def test_moving_edge_has_a_comb_and_a_still_one_has_none() -> None:
     for frame in range(6):
         edge = 5 * min(frame, 3)  # it moves for three frames and stands for two
         report = np.broadcast_to(np.arange(columns) < edge, (rows, columns)).astype(float)
-        shown = weave(shown, report, source_rows(scan(2), rows, frame, follows=frame > 0))
+        weave(shown, report, source_rows(scan(2), rows, frame, follows=frame > 0))
         lit = shown.sum(axis=1)
         if frame in (1, 2, 3):
             assert np.all(lit[frame % 2 :: 2] == edge)

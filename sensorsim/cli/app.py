@@ -15,6 +15,7 @@ from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
 from sensorsim.cli.serve import serve
 from sensorsim.cli.study_accuracy import accuracy
+from sensorsim.cli.study_city import city
 from sensorsim.cli.study_effects import effects as study_effects
 from sensorsim.cli.study_pictures import pictures
 from sensorsim.cli.study_sensitivity import sensitivity
@@ -35,6 +36,7 @@ for command in (render, view, serve, capture, bench, gallery, diff, effects, sce
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)
+study.command("city")(city)
 study.command("effects")(study_effects)
 study.command("pictures")(pictures)
 study.command("sensitivity")(sensitivity)

@@ -20,10 +20,12 @@ from sensorsim.cli.options import (
     Atmosphere,
     Backend,
     Effects,
+    Enhance,
     Exchange,
     Preset,
     Radiance,
     SceneName,
+    Settle,
     Visibility,
     bake_progress,
     find_weather,
@@ -35,13 +37,14 @@ from sensorsim.cli.options import (
     read_scene,
     read_size,
     show_warnings,
+    with_display,
 )
 from sensorsim.cli.render import read_camera
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import CameraPath, read_camera_path
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks
 from sensorsim.frames.side_by_side import join_frames
 from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
@@ -93,6 +96,8 @@ def capture(
         str, typer.Option("--format", help="png (with planes beside it), exr, npy or tiff.")
     ] = "png",
     plane_format: Annotated[str, typer.Option(help="Of planes beside a png: exr, npy, png or tiff.")] = "exr",
+    enhance: Enhance = None,
+    settle: Settle = None,
     video: Annotated[str | None, typer.Option(help="Also join the pictures: mp4 or gif.")] = None,
     video_rate: Annotated[float, typer.Option(help="Pictures per second of the video.")] = 30.0,
     side_by_side: Annotated[
@@ -110,7 +115,7 @@ def capture(
 ) -> None:
     """Render a sequence; run again, it goes on where it was cut off, without redoing what is whole."""
     _check(jobs, every, file_format, video)
-    devices = _sensors(sensors, side_by_side, file_format)
+    devices = [with_display(one, detail=enhance, settle=settle) for one in _sensors(sensors, side_by_side, file_format)]
     pixels, air = None if size is None else read_size(size), read_atmosphere(atmosphere, radiance)
     moment = read_moment(at)
     place, detail = read_scene(scene, level)
@@ -133,7 +138,7 @@ def capture(
             atmosphere=air, shots=shots, numbers=numbers, options=options, detail=detail,
         )
         for world, device in zip(worlds, devices, strict=True)
-        for numbers in blocks(len(shots))
+        for numbers in sequence_blocks(device, shots)
     ]  # fmt: skip
     _draw_all(work, jobs, len(shots) * len(devices))
     series = {device.name: [frame_path(options, device, shot.number) for shot in shots] for device in devices}

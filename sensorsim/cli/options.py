@@ -2,9 +2,10 @@
 
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from datetime import date, datetime, timedelta, timezone
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -16,6 +17,7 @@ from sensorsim.errors import InputError
 from sensorsim.render.air import check_atmosphere
 from sensorsim.render.detail import DetailRule
 from sensorsim.scene import ALL_LEVELS, Scene, load_all_levels, load_scene
+from sensorsim.sensor import Sensor
 from sensorsim.tables.bake import Progress as BakeProgress
 
 SceneName = Annotated[str, typer.Argument(help="Scene that comes with the package, or a GeoJSON file.")]
@@ -44,6 +46,10 @@ Exchange = Annotated[
 ]
 Aerosol = Annotated[str, typer.Option(help="rural, urban, maritime, tropospheric, advection_fog or radiation_fog.")]
 TEMPERATURE_PLANES = frozenset({"surface_temperature", "fit_error"})  # a band that shows none has them on request
+Enhance = Annotated[float | None, typer.Option(help="Gain of fine detail; the sensor's own if left out, 1 for none.")]
+Settle = Annotated[
+    float | None, typer.Option(help="Time constant of automatic gain over frames [s]; the sensor's own if left out.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print figures as JSON.")]
 
 
@@ -111,6 +117,12 @@ def make_folder(folder: Path) -> None:
     except OSError as error:
         problem = f"the folder cannot be made: {error.strerror}"
         raise InputError("command line", "--out", str(folder), problem, "name another place") from error
+
+
+def with_display(sensor: Sensor, **changes: float | None) -> Sensor:
+    """The sensor with some numbers of its display replaced, those that are given."""
+    given: dict[str, Any] = {name: value for name, value in changes.items() if value is not None}
+    return replace(sensor, display=replace(sensor.display, **given)) if given else sensor
 
 
 def find_weather(name: str | None, day: date) -> Weather:

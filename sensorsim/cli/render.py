@@ -16,6 +16,7 @@ from sensorsim.cli.options import (
     Atmosphere,
     Backend,
     Effects,
+    Enhance,
     Exchange,
     Preset,
     Radiance,
@@ -31,6 +32,7 @@ from sensorsim.cli.options import (
     read_scene,
     read_size,
     show_warnings,
+    with_display,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.errors import InputError, NumericsError
@@ -68,6 +70,7 @@ def render(
     ] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
+    enhance: Enhance = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
     radiance: Radiance = "apparent",
     visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
@@ -79,7 +82,7 @@ def render(
     as_json: AsJson = False,
 ) -> None:
     """Render one frame and write it with a sidecar of all its inputs."""
-    device = load_sensor(sensor)
+    device = with_display(load_sensor(sensor), detail=enhance)
     pixels = device.size if size is None else read_size(size)
     display = _display(device, window, polarity)
     wanted = [name for name in planes.split(",") if name]
@@ -136,7 +139,7 @@ def _display(sensor: Sensor, window: str | None, polarity: str | None) -> Displa
     except NumericsError as error:
         remedy = "give temperatures from 150 to 700 K"
         raise InputError("command line", "--window", window, "outside of the sensor's table", remedy) from error
-    return DisplaySettings(polarity=chosen, level=level, span=span)
+    return replace(sensor.display, polarity=chosen, level=level, span=span)
 
 
 def _report(frame: Frame, files: list[Path], as_json: bool) -> None:

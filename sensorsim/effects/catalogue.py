@@ -62,6 +62,7 @@ EFFECTS = (
     _part("memory", "what the detector keeps of the last picture", "each picture on its own"),
     _part("streaks", "a channel's level, lost by coupling", "all levels as they are"),
     _part("halo", "discs of light around bright lights", "none"),
+    _part("blooming", "charge of full wells in the others of their column", "it is drained"),
     _part("dead_elements", "elements that do not see", "all see"),
     _part("replacement", "neighbours in place of dead elements", "dead elements show nothing"),
     _part("interlace", "fields that come in turn: a comb on what moves", "whole frames"),

@@ -1,6 +1,6 @@
 """Sequences of frames on disk that survive being cut off, and are the same whatever draws them side by side.
 
-A sequence is a list of frames, each a sensor at a moment behind a camera. It is drawn in blocks of BLOCK consecutive
+A sequence is a list of frames, each a sensor at a moment behind a camera. It is drawn in blocks of consecutive
 frames of one sensor; a block begins with the frames before it that still show in it, drawn and not written, so that
 no frame depends on where the work was cut. A frame that lies complete in the folder, with the same inputs, is
 not written again.
@@ -18,7 +18,8 @@ from sensorsim.frames.writer import inputs_sha256, write_frame
 from sensorsim.render import Camera, Renderer
 from sensorsim.sensor import MEMORY, DisplaySettings, Sensor, follows_in_time, renewed_share
 
-BLOCK = 32  # frames
+BLOCK = 32  # frames, at least
+PER_LEAD = 4  # times as many frames in a block as are drawn ahead of it
 FORGOTTEN = 1e-4  # share of a picture that no longer matters
 
 
@@ -42,9 +43,11 @@ class SequenceOptions:
     display: DisplaySettings | None = None
 
 
-def blocks(count: int) -> list[range]:
-    """Numbers of frames that are drawn together."""
-    return [range(begin, min(begin + BLOCK, count)) for begin in range(0, count, BLOCK)]
+def sequence_blocks(sensor: Sensor, shots: Sequence[Shot]) -> list[range]:
+    """Numbers of frames that are drawn together, so many that what is drawn ahead of them is a small part."""
+    ahead = max((warm_up(sensor, shots, number) for number in range(0, len(shots), BLOCK)), default=0)
+    size = max(BLOCK, PER_LEAD * ahead)
+    return [range(begin, min(begin + size, len(shots))) for begin in range(0, len(shots), size)]
 
 
 def frame_path(options: SequenceOptions, sensor: Sensor, number: int) -> Path:

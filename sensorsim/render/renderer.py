@@ -8,14 +8,14 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from sensorsim.effects import EFFECTS, EVERYTHING, SURFACE, EffectPlan, Ledger
+from sensorsim.effects import EFFECTS, SURFACE, EffectPlan, Ledger
 from sensorsim.environment import EnvironmentSample
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.gpu import create_context, mesh_buffers, render_target
 from sensorsim.radiometry import build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_values, check_atmosphere
-from sensorsim.render.blocks import AIR, VIEW_FRAME
-from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.blocks import AIR, VIEW_FRAME, view_frame
+from sensorsim.render.camera import Camera
 from sensorsim.render.detail import DetailRule
 from sensorsim.render.display_stage import DisplayStage
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
@@ -23,10 +23,11 @@ from sensorsim.render.illumination import Illumination, illuminate, seen_with
 from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.passes import TEXTURE_UNITS
-from sensorsim.render.picture import QUANTITIES, Picture, exposed
-from sensorsim.render.quick_road import QuickRoad
+from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
+from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
+from sensorsim.render.surface_table import surface_rows
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
@@ -34,6 +35,7 @@ from sensorsim.sensor import (
     AutoGain,
     DisplaySettings,
     Sensor,
+    column_places,
     exposure_for,
     follows_in_time,
     sensor_parts,
@@ -108,30 +110,28 @@ class Renderer:
         no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the
         moment. `solids` stand among the surfaces; their ids follow on those of the scene.
         """
-        wanted = self._wanted(planes)
+        wanted = wanted_planes(self.sensor, planes)
         if illumination is None:
             illumination = self._surroundings(time_of_day, float(camera.position[2]))
-        quick = wanted == {"display"} and self._may_be_quick
-        ledger = None if quick else self.ledger(camera, time_of_day, illumination)
-        plan = EVERYTHING if ledger is None else ledger.plan
-        illumination = seen_with(illumination, plan)
+        chosen = self.sensor.display if display is None else display
+        self.watch("moment")
         with self.ctx:  # another renderer's context may have become the current one
             self._begin(frame, time_of_day)
-            self._solids.solids = solids
-            road = self._quick_road() if quick else None
+            road, ledger = self._quick_road() if wanted == {"display"} else None, None
             self._level.look(camera, None if self._quick is None else self._quick.frame)
-            self._moment.set(time_of_day, illumination, plan)
-            self._set_view(camera, illumination)
-            self.watch("moment")
-            chosen = self.sensor.display if display is None else display
             if road is not None:
-                codes, settings = road.show(camera, chosen, frame, self._moment.number, self.watch, self._solids.draw)
+                codes, settings = road.show(camera, time_of_day, illumination, chosen, frame, solids, self.watch)
                 found: dict[str, NDArray[Any]] = {"display": codes}
             else:
+                ledger = self.ledger(camera, time_of_day, illumination)
+                plan, illumination = ledger.plan, seen_with(illumination, ledger.plan)
+                self._solids.solids = solids
+                self._moment.set(time_of_day, illumination, plan)
+                self._set_view(camera, illumination)
                 found, settings = self._show_all(camera, chosen, frame, wanted, plan)
         return Picture(
             planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
-            ledger=ledger, count_step=None if quick or self._chain is None else self._chain.step,
+            ledger=ledger, count_step=None if road or self._chain is None else self._chain.step,
         )  # fmt: skip
 
     def ledger(self, camera: Camera, time_of_day: float, illumination: Illumination) -> Ledger:
@@ -153,17 +153,6 @@ class Renderer:
             self.sensor, sample or self.world.environment.at(time_of_day), temperature, self.band_table,
             atmosphere=self.atmosphere, camera_height=camera_height,
         )  # fmt: skip
-
-    def _wanted(self, planes: Collection[str] | None) -> set[str]:
-        there = {*QUANTITIES, "surface_id", "feature", "display"}
-        there |= {"signal"} if self.sensor.detector is not None else set()
-        there |= {"counts"} if self.sensor.has_counts else set()
-        there |= {"apparent_temperature"} if self.band_table is not None else set()
-        unknown = set() if planes is None else set(planes) - there
-        if unknown or (planes is not None and not planes):
-            where, problem = f"sensor {self.sensor.name!r}", "not what its frames have"
-            raise InputError(where, "planes", sorted(unknown), problem, f"use {', '.join(sorted(there))}")
-        return there if planes is None else set(planes)
 
     def _surroundings(self, time_of_day: float, height: float) -> Illumination:
         """As `illuminate`, or what was found last where only a camera moved that the air does not mind."""
@@ -209,35 +198,29 @@ class Renderer:
         self._last_time = time_of_day
 
     def _set_view(self, camera: Camera, illumination: Illumination) -> None:
-        near, far = clip_distances(camera, self.size, *self._solids.box(*self._box))
-        corner, right, up = camera.view_rays(self.size)
-        self._blocks["ViewFrame"].write(
-            VIEW_FRAME.pack(
-                clip_from_camera=camera.clip_from_camera(self.size, near, far),
-                camera_position=camera.position,
-                view_corner=corner,
-                view_right=right,
-                view_up=up,
-            )
-        )
+        self._blocks["ViewFrame"].write(view_frame(camera, self.size, *self._solids.box(*self._box)))
         air = air_values(illumination.air, float(camera.position[2]), illumination.sun_direction)
         self._blocks["Air"].write(AIR.pack(**air))
         self._bind()
 
-    def _quick_road(self) -> QuickRoad:
-        """The road of frames for display alone, made for the first of them."""
-        if self._quick is None:
-            self._quick = QuickRoad(
-                self.ctx, self.world, self.sensor, self.size, self._moment.generated, samples=self.samples,
-                energy=self.blur_energy, gain=self._gain,
-            )  # fmt: skip
+    def _quick_road(self) -> QuickRoad | None:
+        """The road of frames for display alone; None where an effect is refused or a surface is not flat."""
+        if self._quick is None and self._may_be_quick:
+            planes = quick_planes(self.world)
+            self._may_be_quick = planes is not None
+            if planes is not None:
+                count = self.world.scene.surfaces.area.size
+                self._quick = QuickRoad(
+                    self.ctx, self.world, self.sensor, self.size, surface_rows(self._moment.records, count), planes,
+                    self.band_table, self._gain, samples=self.samples, energy=self.blur_energy,
+                )  # fmt: skip
         return self._quick
 
     def _show_all(
         self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
         self._draw(plan)
-        planes = self._read(wanted, plan)
+        planes = self._read(camera, wanted, plan)
         self._detect(camera, planes, frame)
         seen = exposed(planes)
         settings = self._gain.window(display, seen)
@@ -260,23 +243,31 @@ class Renderer:
         self._moment.bind()
         self._target.texture("quantities").use(TEXTURE_UNITS["radiance_picture"])
 
-    def _read(self, wanted: set[str], plan: EffectPlan) -> dict[str, NDArray[Any]]:
+    def _read(self, camera: Camera, wanted: set[str], plan: EffectPlan) -> dict[str, NDArray[Any]]:
         quantities = self._target.read("quantities")
         if not np.all(np.isfinite(quantities)):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
-        middle = slice(self.samples // 2, None, self.samples)  # each pixel shows what its middle sees
+        places = self._places(camera)
         planes: dict[str, NDArray[Any]] = {
-            name: np.ascontiguousarray(quantities[middle, middle, component])
+            name: np.ascontiguousarray(quantities[*places, component])
             for component, name in enumerate(QUANTITIES)
             if name != "surface_temperature" or plan.has("temperature")
         }
-        surface = np.ascontiguousarray(self._target.read("id")[middle, middle, 0])
+        surface = np.ascontiguousarray(self._target.read("id")[*places, 0])
         planes["surface_id"] = surface
         feature = np.append(self.world.scene.surfaces.feature, -1)  # of what is no surface of the scene: none
         planes["feature"] = feature[np.where(surface < 0, feature.size - 1, np.minimum(surface, feature.size - 1))]
         if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes
+
+    def _places(self, camera: Camera) -> tuple[slice, slice | NDArray[np.int64]]:
+        """Rows and columns of the drawn picture that the pixels look at: each shows what its middle sees."""
+        middle = slice(self.samples // 2, None, self.samples)
+        if self._chain is None or not self.sensor.scan.equal_angle:
+            return middle, middle
+        field = float(np.radians(camera.horizontal_field_of_view))
+        return middle, column_places(self.size[0], self.samples, field, equal_angle=True).astype(np.int64)
 
     def _detect(self, camera: Camera, planes: dict[str, NDArray[Any]], frame: int) -> None:
         """What the detector reports of the frame of that number, as plane `signal` and as the picture on display."""

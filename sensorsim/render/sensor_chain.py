@@ -1,5 +1,5 @@
-"""From the drawn picture to what the sensor puts out: blur, memory, streaks, halo, noise and counts, what stands
-for dead elements, and the lines of its raster.
+"""From the drawn picture to what the sensor puts out: blur, memory, blooming, streaks, halo, noise and counts, what
+stands for dead elements, and the lines of its raster.
 
 Each step is a pass of its own and is left out where the sensor does not have it.
 """
@@ -47,6 +47,7 @@ class SensorChain:
         self.field = 0.0  # [rad] that kernel and columns are for
         self.last_frame: int | None = None
         self.step = self.look.step  # band radiance of a count of the last run [W m-2 sr-1]
+        self.blooms = sensor.detector is not None and sensor.detector.blooming > 0.0
         self.streaks = sensor.scan.ac_coupling > 0.0
         self.halo = sensor.intensifier is not None
         self.remembers = renewed_share(sensor) < 1.0
@@ -80,6 +81,10 @@ class SensorChain:
         self._draw("products", {"radiance_picture": picture})
         self._draw("focal_plane", {"product_picture": self._texture("products")})
         light = self._held(frame)
+        if self.blooms:
+            self._draw("columns", {"focal_plane": light})
+            self._draw("bloomed", {"focal_plane": light, "block_picture": self._texture("columns")})
+            light = self._texture("bloomed")
         more: dict[str, moderngl.Texture] = {}
         if self.streaks:
             self._draw("row_blocks", {"focal_plane": light})
@@ -120,6 +125,8 @@ class SensorChain:
         kinds |= dict.fromkeys(("reported", *self.after), (self.size, "R32F"))
         if self.remembers:
             kinds |= {"remembered": (self.size, "R32F"), "remembered_last": (self.size, "R32F")}
+        if self.blooms:
+            kinds |= {"columns": ((width, 1), "RG32F"), "bloomed": (self.size, "R32F")}
         if self.streaks:
             kinds |= {"row_blocks": ((columns, height), "RG32F"), "baseline": ((columns, height), "R32F")}
         if self.halo:
@@ -138,6 +145,10 @@ class SensorChain:
         }
         if self.remembers:
             passes["remembered"] = _with_block(ctx, "remember", ("focal_plane", "last_picture"))
+        if self.blooms:
+            whole = {"BLOCK_WIDTH": 1, "BLOCK_HEIGHT": self.size[1]}
+            passes["columns"] = _with_block(ctx, "block_mean", ("focal_plane",), whole)
+            passes["bloomed"] = _with_block(ctx, "bloom", ("focal_plane", "block_picture"))
         if self.streaks:
             passes["row_blocks"] = _with_block(ctx, "block_mean", ("focal_plane",), rows)
             passes["baseline"] = _with_block(ctx, "baseline", ("block_picture",))
@@ -215,6 +226,7 @@ class SensorChain:
                 renewed=renewed_share(sensor),
                 kept=kept_per_block(sensor, self.field, self.size),
                 level=level,
+                blooming=0.0 if sensor.detector is None else sensor.detector.blooming,
                 halo_share=0.0 if sensor.intensifier is None else sensor.intensifier.halo_share,
                 halo_radius=halo_radius(sensor, self.field, self.size[0]),
                 frame=frame,

@@ -76,9 +76,7 @@ def survey_scene(
     With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
     """
     catalogue = load_catalogue() if catalogue is None else catalogue
-    if scene.lineage is not None and (settings.exchange or "exchange" in choice.wanted):
-        problem = "its levels stand within each other, so what is near there is not near in a picture"
-        raise InputError(scene.name, "level", scene.level, problem, "name one level, or leave exchange out")
+    _require_one_level(scene, settings, choice)
     mode = "emissive" if sensor is None else sensor.mode
     choice = _with_exchange(choice, settings)
     choice.require_inputs(sky=settings.sky, mode=mode, parts=None if sensor is None else sensor_parts(sensor))
@@ -107,6 +105,13 @@ def survey_scene(
         ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
         limits=limits,
     )
+
+
+def _require_one_level(scene: Scene, settings: BakeSettings, choice: EffectChoice) -> None:
+    """Refuse exchange between near surfaces where all levels of detail stand together."""
+    if scene.lineage is not None and (settings.exchange or "exchange" in choice.wanted):
+        problem = "its levels stand within each other, so what is near there is not near in a picture"
+        raise InputError(scene.name, "level", scene.level, problem, "name one level, or leave exchange out")
 
 
 def ground_plane(catalogue: Catalogue, season: Season) -> WallType:

@@ -3,7 +3,7 @@
 The base is the picture's own line fit around each element, a x + b with a = var / (var + EDGE^2), averaged over the
 surroundings [He2010]: where the picture varies little it is their mean, at an edge it is the edge itself, so that what
 is stretched is texture, and edges get no seam. All in shares x of the window. The NumPy twin of
-shaders/sensor/detail_rows.frag and detail_columns.frag.
+shaders/sensor/detail_rows.frag and detail_columns.frag and of `detail_kernels`.
 """
 
 from typing import Any

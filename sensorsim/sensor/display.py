@@ -13,7 +13,7 @@ A tone curve may bend the line before the polarity (see `tone`).
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -93,12 +93,26 @@ def auto_window(radiance: npt.ArrayLike, *, tail: float = TAIL) -> tuple[float, 
     """
     if not 0.0 <= tail < 0.5:
         raise InputError("automatic window", "tail", tail, "outside [0, 0.5)", "give the share of pixels to saturate")
-    pixels = np.asarray(radiance, dtype=np.float64).ravel()
+    pixels = np.asarray(radiance).ravel()
     if pixels.size == 0 or not np.isfinite(pixels).all():
         raise NumericsError(f"automatic window: {pixels.size} pixels, all of which must be finite")
-    low, high = (float(value) for value in np.quantile(pixels, (tail, 1.0 - tail)))
+    low, high = _quantiles(pixels, (tail, 1.0 - tail))
     level = (low + high) / 2.0
     return level, max(high - low, RELATIVE_SPAN_FLOOR * abs(level), ABSOLUTE_SPAN_FLOOR)
+
+
+def _quantiles(values: npt.NDArray[Any], shares: tuple[float, ...]) -> tuple[float, ...]:
+    """Quantiles of values (n,), linear between two of them, in double precision.
+
+    All are sorted, in the precision that they come in: processors do that four times as fast as they pick out a few.
+    """
+    ordered, found = np.sort(values), []
+    for share in shares:
+        place = (values.size - 1) * share
+        row = math.floor(place)
+        low, high = float(ordered[row]), float(ordered[min(row + 1, values.size - 1)])
+        found.append(low + (high - low) * (place - row))
+    return tuple(found)
 
 
 def window_from_temperatures(table: BandTable, low: float, high: float) -> tuple[float, float]:

@@ -18,6 +18,7 @@ def sensor_parts(sensor: Sensor) -> frozenset[str]:
         "memory": renewed_share(sensor) < 1.0,
         "streaks": sensor.detector is not None and sensor.scan.ac_coupling > 0.0,
         "halo": sensor.intensifier is not None,
+        "blooming": sensor.detector is not None and sensor.detector.blooming > 0.0,
         "dead_elements": sensor.detector is not None and sensor.noise.dead > 0.0,
         "replacement": sensor.detector is not None and sensor.noise.dead > 0.0 and sensor.noise.replaced,
         "interlace": sensor.detector is not None and sensor.scan.interlace > 1,
@@ -38,5 +39,7 @@ def sensor_without(sensor: Sensor, parts: Collection[str]) -> Sensor:
     scan = replace(scan, lines=0) if "raster_lines" in parts else scan
     if "memory" in parts and sensor.detector is not None:
         sensor = replace(sensor, detector=replace(sensor.detector, response_time=0.0, lag=0.0))
+    if "blooming" in parts and sensor.detector is not None:
+        sensor = replace(sensor, detector=replace(sensor.detector, blooming=0.0))
     sensor = replace(sensor, intensifier=None) if "halo" in parts else sensor
     return replace(sensor, noise=noise, scan=scan)

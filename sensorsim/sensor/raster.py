@@ -29,6 +29,7 @@ def source_rows(scan: Scan, rows: int, frame: int, *, follows: bool) -> NDArray[
     return np.where(fresh | (not follows), middle, HELD)
 
 
-def weave(last: NDArray[Any], reported: NDArray[Any], rows: NDArray[np.int64]) -> NDArray[Any]:
-    """The picture after a report, both (height, width), by `source_rows`; the twin of shaders/sensor/raster.frag."""
-    return np.where((rows == HELD)[:, None], last, reported[np.maximum(rows, 0)])
+def weave(shown: NDArray[Any], reported: NDArray[Any], rows: NDArray[np.int64]) -> None:
+    """Bring a report into the picture shown, both (height, width); the twin of shaders/sensor/raster.frag."""
+    fresh = rows != HELD
+    shown[fresh] = reported[rows[fresh]]

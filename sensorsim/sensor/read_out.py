@@ -49,7 +49,8 @@ def frame_noise(sensor: Sensor, size: tuple[int, int], frame: int) -> FrameNoise
     """Deviates of the rows and columns of a frame."""
     noise = sensor.noise
     column, row = np.arange(size[0], dtype=np.int64), np.arange(size[1], dtype=np.int64)
-    channel: IntArray = row % sensor.scan.channels if sensor.scan.pattern == "parallel" else row
+    shared = sensor.scan.pattern == "parallel" and sensor.scan.channels < size[1]
+    channel: IntArray = row * sensor.scan.channels // size[1] if shared else row
 
     def part(name: str, place: IntArray, moment: int) -> FloatArray:
         return float(getattr(noise, name)) * normal_deviate(place, _FIRST, moment, stream_seed(sensor, name))

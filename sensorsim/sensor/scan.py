@@ -13,8 +13,9 @@ Pattern = Literal["staring", "parallel", "raster"]
 class Scan:
     """Pattern and electronics; zero stands for what a pattern does not have.
 
-    staring: every element has its pixel. parallel: a column of detectors sweeps along the rows, `channels` of them,
-    and the picture's rows are theirs in turn. raster: one spot after the other, as in a tube.
+    staring: every element has its pixel. parallel: a column of detectors sweeps along the rows, `channels` of them
+    over the picture's height, again and again a line farther where there are more rows than channels. raster: one spot
+    after the other, as in a tube.
     """
 
     pattern: Pattern = "staring"

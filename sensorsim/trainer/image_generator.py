@@ -27,6 +27,7 @@ from sensorsim.trainer.outbox import Outbox
 from sensorsim.trainer.poses import Surroundings
 from sensorsim.trainer.settings import ImageSettings, Moment
 from sensorsim.trainer.sight import answer
+from sensorsim.trainer.terrain import height_of_terrain
 from sensorsim.trainer.tracker import Locks, track_sensors
 
 REFUSED, BAKE_ASKED, BAKE_DONE, BAKE_REFUSED = 1, 2, 3, 4  # numbers of messages of text
@@ -59,6 +60,7 @@ class ImageGenerator:
         self._outbox = Outbox(MOST_WAITING)
         self._baked = self._asked = wanted_bake(self.state, settings.start, utc_offset)
         self._pending = False
+        height_of_terrain(around.terrain, 0.0, 0.0)  # rays are compiled now, not within a frame
 
     @property
     def is_fresh(self) -> bool:

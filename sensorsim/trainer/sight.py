@@ -61,7 +61,8 @@ def _hat_hot(state: HostState, values: Mapping[str, Value], time: float, around:
     if int(values["type"]) == EXTENDED:
         if hit is not None and place is not None:
             said["hat"], said["hot"] = float(place[2]) - hit.height, hit.height + around.place.altitude
-            said |= _surface(hit, around)
+            latitude, longitude, _ = around.place.geodetic(hit.position)
+            said |= _surface(hit, around.place.convergence(latitude, longitude))
         return "hat_hot_ext_response", said
     said["type"] = int(values["type"])
     if hit is not None and place is not None:
@@ -143,12 +144,13 @@ def _meetings(
     answers: list[Answer] = []
     for hit in kept:
         where = around.place.geodetic(hit.position)
+        north = around.place.convergence(where[0], where[1])
         if pose is not None:
             first, second, third = (pose.attitude.T @ (hit.position - pose.position)).tolist()
             where = (first, second, third)
         places: dict[str, Value] = dict(zip(("lat_xoff", "lon_yoff", "alt_zoff"), where, strict=True))
         found: dict[str, Value] = {"response_count": len(kept), "range_valid": 1, "range": hit.range}
-        more = {**_whose(hit), **_surface(hit, around)}
+        more = {**_whose(hit), **_surface(hit, north)}
         answers.append(("los_ext_response", {**said, **found, **places, **OPAQUE_GREY, **more}))
     return answers
 
@@ -158,13 +160,10 @@ def _whose(hit: Hit) -> dict[str, Value]:
     return {} if hit.entity is None else {"entity_id_valid": 1, "entity_id": hit.entity}
 
 
-def _surface(hit: Hit, around: Surroundings) -> dict[str, Value]:
+def _surface(hit: Hit, convergence: float) -> dict[str, Value]:
     """Material code and the normal's azimuth from true north, -180 to 180, and elevation [deg]."""
     east, north, up = hit.normal.tolist()
-    latitude, longitude, _ = around.place.geodetic(hit.position)
-    azimuth = 0.0
-    if (east, north) != (0.0, 0.0):
-        azimuth = degrees(atan2(east, north)) + around.place.convergence(latitude, longitude)
+    azimuth = 0.0 if (east, north) == (0.0, 0.0) else degrees(atan2(east, north)) + convergence
     return {
         "material_code": hit.material,
         "normal_vector_azimuth": (azimuth + 180.0) % 360.0 - 180.0,
