@@ -18,16 +18,16 @@ def _coarse(sensor: Sensor) -> Sensor:
     return replace(sensor, scan=replace(sensor.scan, lines=80))
 
 
-def _spilling(sensor: Sensor) -> Sensor:
-    detector = sensor.detector
-    assert detector is not None
-    return replace(sensor, detector=replace(detector, blooming=0.3))
+def _blooming(sensor: Sensor) -> Sensor:
+    if sensor.detector is None:
+        return sensor
+    return replace(sensor, detector=replace(sensor.detector, blooming=0.5))
 
 
 VARIANTS: Mapping[str, tuple[str, Callable[[Sensor], Sensor], str]] = {
     "uncooled, blind": ("uncooled", _blind, "with 0.3 % of its elements dead"),
     "uncooled, repaired": ("uncooled", _repaired, "with 0.3 % of its elements dead and replaced"),
-    "emccd, spilling": ("emccd", _spilling, "with 0.3 of what its wells do not hold in others"),
+    "emccd, blooming": ("emccd", _blooming, "whose wells spill half of what they cannot hold"),
     "sit1977, coarse": ("sit1977", _coarse, "with a raster of 80 lines"),
 }
 
