@@ -12,9 +12,11 @@ from sensorsim.tables import CACHE_VARIABLE
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_table_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Tests that render share what they bake, and neither read nor leave anything in the user's cache."""
+    """Tests that render share what they bake, in all processes; the user's cache is neither read nor added to."""
     before = os.environ.get(CACHE_VARIABLE)
-    os.environ[CACHE_VARIABLE] = str(tmp_path_factory.mktemp("tables"))
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    os.environ[CACHE_VARIABLE] = str(shared / "tables")
     yield
     os.environ.pop(CACHE_VARIABLE)
     if before is not None:

@@ -9,11 +9,9 @@ from sensorsim.environment import Environment
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables import BakeSettings, ShadeTables
-from sensorsim.tables.history import solve_histories
+from sensorsim.tables.full_solve import SurfaceSet, solve_surfaces
 from sensorsim.tables.orientations import FloatArray
 from sensorsim.tables.shade import shade
-from sensorsim.thermal import expose, ground_temperature
-from sensorsim.thermal.lead_in import lead_in_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -51,13 +49,15 @@ def full_solve(
         problem, remedy = "between the samples of the environment", f"use multiples of {environment.step:g} s"
         raise InputError("fit error", "time", surfaces.time_of_day[np.argmax(sample % 1.0)], problem, remedy)
     record, order = np.unique(environment.image_window.start + np.round(sample).astype(np.int64), return_inverse=True)
-    repeated = lead_in_of(ground, environment, own=settings.lead_in_days is None).repeated
-    soil = ground_temperature(environment, ground, sky=settings.sky, repeated=repeated)
-    exposure = expose(environment, surfaces.normal, soil, sky=settings.sky)
-    return [
-        solve_histories(environment, exposure, wall, surfaces.reflectance, record, settings=settings)[order]
-        for wall in surfaces.wall_types
-    ]
+    walls, count, several = len(surfaces.wall_types), surfaces.normal.shape[0], surfaces.reflectance.size
+    each = SurfaceSet(
+        wall_types=surfaces.wall_types,
+        wall_type=np.repeat(np.arange(walls), count * several),
+        normal=np.tile(surfaces.normal, (walls * several, 1)),
+        reflectance=np.tile(np.repeat(surfaces.reflectance, count), walls),
+    )
+    solved = solve_surfaces(environment, each, ground=ground, record=record, settings=settings)[order]
+    return list(solved.reshape(-1, walls, several, count).transpose(1, 0, 3, 2))
 
 
 def fit_error(tables: ShadeTables, surfaces: Surfaces, solved: Sequence[FloatArray]) -> list[FloatArray]:

@@ -23,7 +23,7 @@ PACKAGE = ROOT / "sensorsim"
 
 # From the ground up. A room may import rooms of lower floors and its own modules, never a neighbour on its floor.
 FLOORS: tuple[tuple[str, ...], ...] = (
-    ("constants", "errors", "units", "resources", "version"),
+    ("constants", "errors", "files", "units", "resources", "version"),
     ("radiometry",),
     ("scene", "materials", "environment", "sensor"),
     ("effects",),

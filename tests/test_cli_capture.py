@@ -3,6 +3,7 @@
 import hashlib
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import imageio.v3 as imageio
@@ -12,17 +13,19 @@ from small_world import LATITUDE, LONGITUDE, town, town_features, write_town
 
 from sensorsim.cli import main
 from sensorsim.errors import InputError
+from sensorsim.frames import read_plane
 from sensorsim.frames.difference import compare_frames, difference
 from sensorsim.frames.frame import Plane
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path, warm_up
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks, warm_up
+from sensorsim.frames.side_by_side import beside, join_frames
 from sensorsim.frames.video import write_video
 from sensorsim.render import Renderer, look_at
-from sensorsim.sensor import load_sensor
+from sensorsim.sensor import DisplaySettings, load_sensor
 
 AT = "1976-02-07T10:00"
 SIZE = (32, 24)
 VIEWS = [look_at([-60.0 + 3.0 * k, -80.0, 40.0], [20.0, 20.0, 5.0], 40.0) for k in range(4)]
-SHOTS = tuple(Shot(number=k, time_of_day=36000.0 + 60.0 * k, camera=view) for k, view in enumerate(VIEWS))
+SHOTS = tuple(Shot(number=k, time_of_day=36000.0 + k / 30.0, camera=view) for k, view in enumerate(VIEWS))
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
@@ -43,8 +46,17 @@ def draw(folder: Path, name: str, numbers: range = range(4), **options: object) 
 
 
 def test_blocks_cover_every_frame_once() -> None:
-    assert [number for block in blocks(75) for number in block] == list(range(75))
-    assert blocks(0) == []
+    shots = tuple(Shot(number=k, time_of_day=k / 30.0, camera=VIEWS[0]) for k in range(75))
+    for display, size in (
+        (DisplaySettings(), 32),
+        (DisplaySettings(settle=0.1), 48),
+        (DisplaySettings(settle=9.0), 75),
+    ):
+        sensor = replace(load_sensor("flir"), display=display)
+        blocks = sequence_blocks(sensor, shots)
+        assert [number for block in blocks for number in block] == list(range(75))
+        assert len(blocks[0]) == size
+        assert sequence_blocks(sensor, ()) == []
 
 
 @pytest.mark.parametrize("name", ["flir", "uncooled"])
@@ -62,8 +74,8 @@ def test_cut_off_sequence_goes_on_without_redoing_or_losing_frames(tmp_path: Pat
 
 
 def test_frames_of_a_detector_that_remembers_do_not_depend_on_where_work_is_cut(tmp_path: Path) -> None:
-    assert warm_up(load_sensor("uncooled")) >= 2
-    assert warm_up(load_sensor("flir")) == 0
+    assert warm_up(load_sensor("uncooled"), SHOTS, 3) >= 2
+    assert warm_up(load_sensor("flir"), SHOTS, 3) == 0
     draw(tmp_path / "one", "uncooled")
     draw(tmp_path / "two", "uncooled", range(3, 4))
     name = frame_path(SequenceOptions(folder=tmp_path), load_sensor("uncooled"), 3).name
@@ -187,3 +199,109 @@ def test_diff_refuses_what_has_no_plane_in_common(tmp_path: Path) -> None:
         compare_frames(tmp_path / "flir_000000.npy", tmp_path / "flir_000001.npy")
     with pytest.raises(InputError, match=r"missing|No such file"):
         compare_frames(tmp_path / "flir_000000.npy", tmp_path / "nothing.png")
+
+
+def test_frames_do_not_depend_on_where_work_is_cut_whatever_shows_in_them(tmp_path: Path) -> None:
+    """Fields of an interlaced sensor, a tube's lag, and a gain that settles over many frames."""
+    slow = DisplaySettings(settle=0.02)
+    for name in ("flir1977", "sit1977"):
+        draw(tmp_path / "one", name, display=slow)
+        draw(tmp_path / "two", name, range(3, 4), display=slow)
+        draw(tmp_path / "quick", name)
+        file = frame_path(SequenceOptions(folder=tmp_path), load_sensor(name), 3).name
+        assert digests(tmp_path / "two")[file] == digests(tmp_path / "one")[file]
+        assert digests(tmp_path / "quick")[file] != digests(tmp_path / "one")[file]
+
+
+def test_frames_that_show_in_others_are_those_of_the_last_moments() -> None:
+    steps = {"quick": 1.0 / 30.0, "slow": 0.2, "rare": 900.0}
+    shots = {
+        name: [Shot(number=k, time_of_day=step * k, camera=VIEWS[0]) for k in range(90)] for name, step in steps.items()
+    }
+    flir, sit, still = load_sensor("flir1977"), load_sensor("sit1977"), DisplaySettings(settle=0.5)
+    assert warm_up(flir, shots["quick"], 80) == 1  # the other field
+    assert warm_up(flir, shots["quick"], 0) == 0
+    assert warm_up(sit, shots["quick"], 80) > 2
+    assert warm_up(sit, shots["slow"], 80) == warm_up(flir, shots["rare"], 80) == 0
+    assert warm_up(load_sensor("flir"), shots["quick"], 80, still) == 60  # MEMORY times half a second
+    assert warm_up(load_sensor("flir"), shots["slow"], 80, still) == 10
+    assert warm_up(load_sensor("flir"), shots["rare"], 80, still) == 0
+    assert warm_up(flir, shots["quick"], 80, still) == 61
+
+
+def test_frames_far_apart_are_drawn_alone(tmp_path: Path) -> None:
+    """An hour's timelapse of a bolometer: the one that is missing, and no other."""
+    shots = tuple(Shot(number=s.number, time_of_day=36000.0 + 900.0 * s.number, camera=s.camera) for s in SHOTS)
+    with Renderer(town(), load_sensor("uncooled"), size=SIZE) as renderer:
+        assert draw_block(renderer, shots, range(4), SequenceOptions(folder=tmp_path)) == 4
+        (tmp_path / "uncooled_000003.json").unlink()
+        before = digests(tmp_path)
+        looks: list[int] = []
+        renderer.watch = lambda stage: looks.append(1) if stage == "moment" else None
+        assert draw_block(renderer, shots, range(4), SequenceOptions(folder=tmp_path)) == 1
+    assert len(looks) == 1
+    assert {**before, "uncooled_000003.json": digests(tmp_path)["uncooled_000003.json"]} == digests(tmp_path)
+
+
+def test_two_sensors_side_by_side_show_the_same_moments_from_the_same_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene, out = write_town(tmp_path, town_features()), tmp_path / "both"
+    words = ("--at", AT, "--until", "1976-02-07T10:30", "--every", "900", "--size", "32x24", "--preset", "report")
+    both = ("--sensors", "flir,lltv", "--side-by-side", "--video", "gif")
+    assert run(monkeypatch, "capture", scene, *words, *both, "--out", out) == 0
+    for number in range(3):
+        pictures = [imageio.imread(out / f"{name}_{number:06d}.png") for name in ("flir", "lltv", "flir_lltv")]
+        assert np.array_equal(np.hstack(pictures[:2]), pictures[2])
+        told = [json.loads((out / f"{name}_{number:06d}.json").read_text())["settings"] for name in ("flir", "lltv")]
+        assert [told[0][name] == told[1][name] for name in ("time_of_day_s", "frame", "camera")] == [True] * 3
+    assert imageio.imread(out / "flir_lltv.gif", index=None).shape[:3] == (3, 24, 64)
+
+
+def test_frames_that_are_not_locked_are_not_joined(tmp_path: Path) -> None:
+    draw(tmp_path, "flir", range(2))
+    draw(tmp_path, "lltv", range(2))
+    name = "{}_{:06d}.png".format
+    with pytest.raises(InputError, match="time_of_day_s"):
+        join_frames([tmp_path / name("flir", 0), tmp_path / name("lltv", 1)], tmp_path / "both.png")
+    assert not (tmp_path / "both.png").exists()
+
+
+def test_lower_pictures_stand_in_the_middle_between_black() -> None:
+    joined = beside([np.full((4, 3), 9, np.uint8), np.full((2, 1), 7, np.uint8)])
+    assert joined[:, 3].tolist() == [0, 7, 7, 0]
+    assert (joined[:, :3] == 9).all()
+
+
+@pytest.mark.parametrize("words", [("--sensors", "flir"), ("--sensors", "flir,lltv", "--format", "npy")])
+def test_side_by_side_of_one_sensor_or_of_no_pictures_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    assert run(monkeypatch, "capture", scene, "--at", AT, "--side-by-side", *words, "--out", tmp_path / "both") == 2
+    assert "needs pictures of two sensors" in capsys.readouterr().err
+
+
+def test_capture_through_another_air_draws_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = write_town(tmp_path, town_features())
+    words = (
+        "--at",
+        AT,
+        "--camera",
+        "-60,-80,40,40,-12",
+        "--size",
+        "32x24",
+        "--preset",
+        "report",
+        "--planes",
+        "radiance",
+    )
+    planes, told = [], []
+    for air in ((), ("--visibility", "0.3"), ("--atmosphere", "report"), ("--radiance", "source")):
+        assert run(monkeypatch, "capture", scene, *words, *air, "--planes", "radiance", "--out", tmp_path / "kept") == 0
+        told.append(capsys.readouterr().err.split()[0])
+        planes.append(read_plane(tmp_path / "kept" / "flir_000000.png", "radiance").data)
+    assert told == ["1"] * 4
+    assert all(np.abs(planes[0] - other).max() > 1e-3 for other in planes[1:])

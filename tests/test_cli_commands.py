@@ -180,6 +180,32 @@ def test_time_with_an_offset_is_the_same_moment(monkeypatch: pytest.MonkeyPatch,
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
+def test_level_of_detail_chosen_by_the_picture_is_a_choice_of_the_command(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _run(monkeypatch, "scene", "hospital", "--level", "auto", "--json")
+    levels = json.loads(capsys.readouterr().out)["levels"]
+    assert [(row["level"], row["features"], row["ground"], row["overlap"]) for row in levels] == [
+        ("IA", 12, 2, 0), ("IIA", 21, 7, 11), ("IIIB", 87, 13, 64)
+    ]  # fmt: skip
+    _run(monkeypatch, "scene", "hospital", "--level", "auto")
+    assert "not at the finer level: IA 10" in " ".join(capsys.readouterr().out.split())
+    shown = {}
+    for level in ("IIIB", "auto", "auto:400"):
+        out = tmp_path / f"{level.replace(':', '_')}.png"
+        words = ("--at", AT, "--size", "48x36", "--preset", "report", "--level", level, "--planes", "range")
+        _run(monkeypatch, "render", "hospital", "--out", out, *words)
+        told = json.loads(out.with_suffix(".json").read_text())["settings"]
+        shown[level] = imageio.imread(out)
+        assert told["scene"]["level"] == level.split(":")[0]
+        assert told["detail_pixels"] == {"IIIB": None, "auto": 1.0, "auto:400": 400.0}[level]
+    np.testing.assert_array_equal(shown["auto"], shown["IIIB"])  # near by all is of the finest level
+    assert not np.array_equal(shown["auto:400"], shown["IIIB"])
+    for level in ("auto:", "auto:many", "auto:0", "automatic"):
+        with pytest.raises(InputError, match="level"):
+            app(["render", "hospital", "--at", AT, "--out", "a.png", "--level", level], standalone_mode=False)
+
+
 def test_module_runs_as_a_program() -> None:
     """From a shell, with its exit code: the one test that starts another Python."""
     command = [sys.executable, "-m", "sensorsim", "render", "nowhere", "--at", AT, "--out", "x.png"]

@@ -121,11 +121,13 @@ def test_bound_of_each_effect_is_above_what_it_changes_in_random_weather(seed: i
     )
     settings = replace(COARSE, sky=SKIES[seed % 2])
     walls, ground = (*PLAIN, wall(*GRASS)), wall(*LOAM)
-    bounds = surface_bounds(situation(weather, walls, ground, settings))
+    alone = situation(weather, walls, ground, settings)
+    bounds, windy = surface_bounds(alone), surface_bounds(replace(alone, film_kept=True))
     whole = temperatures(weather, walls, ground, settings)
     for name in TERMS:
         changed = temperatures(weather, walls, ground, settings, EVERYTHING.without(name))
-        assert np.abs(changed - whole).max() <= bounds[name].value * (1.0 + 1e-6) + 1e-6, name
+        assert np.abs(changed - whole).max() <= windy[name].value * (1.0 + 1e-6) + 1e-6, name
+        assert windy[name].value <= bounds[name].value, name
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -135,12 +137,39 @@ def test_no_surface_leaves_the_limits_of_its_temperature_whatever_is_left_out(se
         random_weather(seed), image_day=environment().image_start.date(), lead_in_days=1.0, step=COARSE.step
     )
     walls, ground = (*PLAIN, wall(*GRASS)), wall(*LOAM)
-    limits = situation(weather, walls, ground, COARSE).limits
-    for _ in range(4):
-        plan = EffectPlan(off=tuple(rng.choice(TERMS, size=5, replace=False).tolist()))
+    alone = situation(weather, walls, ground, COARSE)
+    for film_kept in (False, False, True, True, True):
+        limits = replace(alone, film_kept=film_kept).limits
+        left = [name for name in TERMS if not (film_kept and name == "forced_convection")]
+        plan = EffectPlan(off=tuple(rng.choice(left, size=5, replace=False).tolist()))
         found = temperatures(weather, walls, ground, COARSE, plan)
         assert limits.coldest - 1e-3 <= found.min()
         assert found.max() <= limits.greatest + 1e-3
+
+
+def test_wind_that_is_kept_holds_surfaces_and_bounds_closer_to_the_air() -> None:
+    """In the windy winter: no surface is warmer than half as far from the air as emission alone would leave it.
+
+    The dew point stays the lower limit.
+    """
+    alone = situation(environment(), PLAIN, wall(*ASPHALT), COARSE)
+    windy = replace(alone, film_kept=True)
+    air = environment().air_temperature
+    assert windy.limits.greatest - air.max() < 0.5 * (alone.limits.greatest - air.max())
+    assert alone.limits.coldest <= windy.limits.coldest < air.min()
+    loose, tight = surface_bounds(alone), surface_bounds(windy)
+    for name in ("direct_sun", "ground_sun", "thermal_sky", "ground_exchange", "interior"):
+        assert tight[name].value < 0.5 * loose[name].value, name
+    assert tight["forced_convection"] == loose["forced_convection"]
+
+
+def test_bounds_that_trust_the_wind_are_bounds_of_all_left_out_together() -> None:
+    weather, ground = environment(), wall(*ASPHALT)
+    names = ("direct_sun", "sky_dome", "sky_glow", "sky_horizon", "ground_sun", "thermal_sky", "ground_exchange")
+    bounds = surface_bounds(replace(situation(weather, PLAIN, ground, COARSE), film_kept=True))
+    whole = temperatures(weather, PLAIN, ground, COARSE)
+    changed = temperatures(weather, PLAIN, ground, COARSE, EVERYTHING.without(*names))
+    assert 5.0 < np.abs(changed - whole).max() <= sum(bounds[name].value for name in names)
 
 
 def test_several_effects_left_out_together_change_no_more_than_the_sum_of_their_bounds() -> None:

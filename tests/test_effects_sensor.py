@@ -1,5 +1,6 @@
 """Blur, noise, memory, streaks and halo as effects: left out on request, on where a sensor has them, and only there."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +18,11 @@ from sensorsim.sensor import exposure_for, load_sensor, sensitivity, sensor_part
 
 PARTS: dict[str, set[str]] = {
     "flir": set(), "lltv": set(), "uncooled": {"blur", "noise", "memory"}, "emccd": {"blur", "noise"},
-    "cooled_mwir": {"blur", "noise"}, "flir1977": {"blur", "noise", "streaks"},
-    "sit1977": {"blur", "noise", "memory", "halo"},
+    "cooled_mwir": {"blur", "noise"}, "flir1977": {"blur", "noise", "streaks", "interlace"},
+    "sit1977": {"blur", "noise", "memory", "halo", "interlace"},
 }  # fmt: skip
 LEFT_OUT = [("uncooled", "blur"), ("uncooled", "noise"), ("uncooled", "memory"), ("flir1977", "streaks"),
+            ("flir1977", "interlace"),
             ("emccd", "blur"), ("emccd", "noise"), ("sit1977", "memory")]  # fmt: skip
 
 
@@ -33,9 +35,10 @@ def built(folder: Path, choice: str, sensor: str) -> World:
 
 
 def looks(folder: Path, choice: str, sensor: str) -> list[Picture]:
-    """Two frames an hour apart, as a sequence has them."""
+    """Two frames of a camera that turns, as a sequence has them."""
+    views = [replace(ACROSS, yaw=ACROSS.yaw + turn) for turn in (0.0, 2.0)]
     with Renderer(built(folder, choice, sensor), load_sensor(sensor), size=SIZE) as renderer:
-        return [renderer.render(ACROSS, 36000.0 + 3600.0 * frame, frame=frame) for frame in range(2)]
+        return [renderer.render(view, 36000.0, frame=frame) for frame, view in enumerate(views)]
 
 
 @pytest.mark.parametrize("sensor", PARTS)
@@ -62,7 +65,7 @@ def test_part_that_is_left_out_changes_the_signal_by_less_than_its_bound(
     assert np.array_equal(whole[1].planes["radiance"], lean[1].planes["radiance"])
 
 
-@pytest.mark.parametrize("sensor", ["uncooled", "emccd", "cooled_mwir"])
+@pytest.mark.parametrize("sensor", ["uncooled", "emccd", "cooled_mwir", "flir1977"])
 def test_chain_without_its_parts_is_the_picture_in_counts(sensor: str, tmp_path: Path) -> None:
     """To half a count, and a hundredth for single precision."""
     look = sensitivity(load_sensor(sensor))

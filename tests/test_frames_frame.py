@@ -54,7 +54,7 @@ def test_data_that_the_plane_cannot_hold_are_refused(name, data):
 
 
 def test_unknown_plane_is_refused_with_the_list():
-    with pytest.raises(InputError, match="use display, radiance, signal, apparent_temperature"):
+    with pytest.raises(InputError, match="use display, radiance, signal, counts, apparent_temperature"):
         build_frame({"temperature": IMAGE}, {})
     with pytest.raises(InputError, match="plane = 'range': not in this frame; use radiance"):
         build_frame({"radiance": IMAGE}, {}).plane("range")

@@ -42,7 +42,10 @@ def _shade(
 ) -> np.ndarray:
     if moment is None:  # no lobes
         nothing, none = np.zeros(coefficients.shape[0]), np.zeros((coefficients.shape[0], 0, 2))
-        moment = Moment(coefficients=coefficients, level=nothing, bend=nothing, direction=np.zeros((0, 3)), weight=none)
+        moment = Moment(
+            coefficients=coefficients, level=nothing, bend=nothing, direction=np.zeros((0, 3)), weight=none,
+            gain=np.zeros((nothing.size, 5)),
+        )  # fmt: skip
     most = moment.direction.shape[0] + 2
     textures = {
         "coefficient_table": float_table(ctx, "coefficient_table", coefficient_texels(coefficients)),

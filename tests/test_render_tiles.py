@@ -74,13 +74,12 @@ def test_tiles_change_what_is_drawn_and_not_what_is_seen(
 
 def test_every_triangle_is_in_one_run_and_its_box(city: World) -> None:
     mesh = city.scene.mesh
-    kind = (np.arange(len(mesh.triangle)) % 2).astype(np.int64)
-    made = tiles.build_tiles(mesh, kind, mesh.position[mesh.triangle[:, 0], 2])
+    made = tiles.build_tiles(mesh, mesh.position[mesh.triangle[:, 0], 2])
     assert sorted(map(tuple, made.triangle.tolist())) == sorted(map(tuple, mesh.triangle.tolist()))
     assert made.edge[0] == 0
     assert made.edge[-1] == len(mesh.triangle)
     assert np.all(np.diff(made.edge) > 0)
-    for run in range(len(made.kind)):
+    for run in range(len(made.lowest)):
         corner = mesh.position[made.triangle[made.edge[run] : made.edge[run + 1]]].reshape(-1, 3)
         np.testing.assert_array_equal(corner.min(axis=0), made.lowest[run])
         np.testing.assert_array_equal(corner.max(axis=0), made.highest[run])
@@ -89,7 +88,7 @@ def test_every_triangle_is_in_one_run_and_its_box(city: World) -> None:
 def test_scene_of_one_triangle_and_one_without_width_have_a_tile() -> None:
     mesh = town().scene.mesh
     for part in (mesh.triangle[:1], mesh.triangle[:1].repeat(3, axis=0)):
-        made = tiles.build_tiles(replace(mesh, triangle=part), np.zeros(len(part), np.int64), np.zeros(len(part)))
+        made = tiles.build_tiles(replace(mesh, triangle=part), np.zeros(len(part)))
         assert made.edge.tolist() == [0, len(part)]
     point = replace(mesh, position=np.zeros((3, 3)), triangle=np.array([[0, 1, 2]], dtype=np.int32))
-    assert tiles.build_tiles(point, np.zeros(1, np.int64), np.zeros(1)).edge.tolist() == [0, 1]
+    assert tiles.build_tiles(point, np.zeros(1)).edge.tolist() == [0, 1]

@@ -34,3 +34,10 @@ def test_axes_point_east_and_north() -> None:
         longitude, latitude = FRAME.degrees_from_metres(np.array([[east, north]]))[0]
         found, _, _ = geod.inv(FRAME.longitude, FRAME.latitude, longitude, latitude)
         assert found == pytest.approx(azimuth, abs=0.01)
+
+
+def test_one_place_is_converted_as_many_are() -> None:
+    for east, north in _strip_points()[::97].tolist():
+        ((longitude, latitude),) = FRAME.degrees_from_metres(np.array([[east, north]]))
+        assert FRAME.longitude_latitude(east, north) == (longitude, latitude)
+        assert FRAME.east_north(longitude, latitude) == pytest.approx((east, north), abs=1e-6)

@@ -56,6 +56,16 @@ def test_automatic_window_leaves_the_tails_outside():
     assert np.mean(radiance > level + span / 2.0) == pytest.approx(0.05, abs=1e-3)
 
 
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@pytest.mark.parametrize("count", [3, 100, 76800])
+def test_automatic_window_is_between_quantiles_as_numpy_has_them(kind, count):
+    radiance = np.random.default_rng(count).normal(45.0, 3.0, count).astype(kind)
+    low, high = np.quantile(radiance.astype(np.float64), (0.02, 0.98))
+    level, span = auto_window(radiance, tail=0.02)
+    assert level == pytest.approx((low + high) / 2.0, rel=1e-14)
+    assert span == pytest.approx(high - low, rel=1e-12)
+
+
 def test_automatic_window_follows_gain_and_offset_of_the_scene():
     radiance = np.random.default_rng(2).normal(45.0, 3.0, 1000)
     level, span = auto_window(radiance)
@@ -71,7 +81,7 @@ def test_frame_of_one_radiance_is_middle_grey(radiance):
 def test_automatic_gain_does_not_show_a_millikelvin_as_contrast():
     """An isothermal scene that is off by 1 mK stays within a few of 255 codes."""
     radiance = band_radiance(FLIR_BAND, np.array([290.0, 290.001]))
-    codes = display_code(radiance, fix_window(DisplaySettings(), radiance, tail=0.0)).astype(int)
+    codes = display_code(radiance, fix_window(DisplaySettings(tail=0.0), radiance)).astype(int)
     assert abs(codes[1] - codes[0]) <= 5
 
 

@@ -17,8 +17,8 @@ SENSOR = {
 BAND = {"name": '"probe"', "wavelength_um": "[8, 10.5, 12]", "response": "[0, 1, 0.5]"}
 
 
-def write_sensor(folder, *, sensor=None, band=None, display=None):
-    tables = {"": {**SENSOR, **(sensor or {})}, "band": {**BAND, **(band or {})}, "display": display or {}}
+def write_sensor(folder, *, sensor=None, band=None, **others):
+    tables = {"": {**SENSOR, **(sensor or {})}, "band": {**BAND, **(band or {})}, "display": {}, **others}
     lines = []
     for table, entries in tables.items():
         if table:
@@ -88,6 +88,14 @@ def test_size_and_display_may_be_left_out(tmp_path):
         ("band", "gain", "2", "band.gain = 2: unknown key"),
         ("display", "polarity", '"hot"', "display.polarity = 'hot': unknown; use white-hot or black-hot"),
         ("display", "span", "0.0", "display.span = 0.0: not finite and above zero"),
+        ("display", "detail", "-1", "display.detail = -1: outside of 0 to 20"),
+        ("display", "tail", "0.5", "display.tail = 0.5: outside of 0 to 0.49"),
+        ("display", "settle", "nan", "display.settle = nan: outside of 0 to 60"),
+        ("noise", "replaced", "1", "noise.replaced = 1: of the wrong kind; give true or false"),
+        ("noise", "dead", "0.6", r"noise.dead = 0.6: not 0 to 0.5"),
+        ("scan", "lines", "100", "scan.pattern = .*has no channels, lines or electronics"),
+        ("scan", "lines", "1.5", "scan.lines = 1.5: of the wrong kind; give a whole number"),
+        ("scan", "interlace", "0", "scan.interlace = 0: not 1 to 8"),
         ("display", "gain", "2", "display.gain = 2: unknown key; use only polarity, level, span"),
     ],
 )

@@ -8,10 +8,10 @@ from trainer_world import ALTITUDE, AROUND, LATITUDE, LONGITUDE, NOON, PERIOD, H
 
 from sensorsim.errors import InputError
 from sensorsim.trainer.database import LoadState
-from sensorsim.trainer.dialect import CIGI_33, CIGI_40
+from sensorsim.trainer.dialect import CIGI_33, CIGI_40, Dialect
 from sensorsim.trainer.encode import encode_message, make_packet
 from sensorsim.trainer.host_clock import HostClock, hear_timestamp
-from sensorsim.trainer.image_generator import ImageGenerator
+from sensorsim.trainer.image_generator import REFUSED, ImageGenerator
 from sensorsim.trainer.settings import ImageSettings
 
 
@@ -520,3 +520,37 @@ def test_the_same_flight_in_4_0_gives_the_same_frame(host: Host) -> None:
     assert old_frame.views == new_frame.views
     assert old_frame.moment == new_frame.moment
     assert new.frame()[0].values["ig_mode"] == 1
+
+
+def test_switches_and_parts_of_4_0_reach_the_entity_as_those_of_3_3_do(host: Host) -> None:
+    new = Host(CIGI_40)
+    new.frame(
+        new.packet("entity_control", entity_state=1), new.packet("entity_position", lat_xoff=39.82, lon_yoff=-84.02)
+    )
+    switch = {"component_id": 1, "instance_id": 0, "component_class": 0, "component_state": 1, "data_2": 9}
+    part = {"entity_id": 0, "part_id": 1, "part_enable": 1, "pitch_enable": 1, "pitch": 7.5, "yaw": 5.0}
+    rate = {"entity_id": 0, "part_id": 1, "apply_to_part": 1, "yaw_rate": 4.0}
+    for each in (host, new):
+        each.frame(each.packet("short_component_control", **switch), each.packet("art_part_control", **part))
+        each.frame(
+            each.packet("component_control", **(switch | {"component_id": 2})), each.packet("rate_control", **rate)
+        )
+        assert each.said == ()
+    (old_entity,), (new_entity,) = host.ig.frame_request().entities, new.ig.frame_request().entities
+    assert new_entity.components == old_entity.components
+    assert new_entity.components[1].words == (0, 9)
+    assert {1: new_entity.parts[1].values, 2: new_entity.parts[1].rates} == {
+        1: old_entity.parts[1].values, 2: old_entity.parts[1].rates
+    }  # fmt: skip
+    assert new_entity.parts[1].values == {"pitch": 7.5}
+
+
+@pytest.mark.parametrize("dialect", [CIGI_33, CIGI_40], ids=["3.3", "4.0"])
+def test_what_is_refused_is_told_in_words(dialect: Dialect) -> None:
+    host = Host(dialect)
+    host.frame()
+    host.frame(host.packet("rate_control", entity_id=77))
+    (answer,) = host.frame()[1:]
+    assert (answer.name, answer.values["message_id"]) == ("image_generator_message", REFUSED)
+    assert "77" in str(answer.values["message"])
+    assert "no such entity" in str(answer.values["message"])

@@ -122,8 +122,10 @@ def test_a_server_ends_cleanly_on_sigterm_and_listens_on_this_machine_alone(tmp_
 def test_the_example_host_flies_and_reports(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     fly = runpy.run_path(str(ROOT / "tools" / "example_host.py"))["main"]
     scene, options = write_town(tmp_path, town_features()), ["--size", "64x48", "--preset", "report"]
-    figures = fly(["--seconds", "2", "--rate", "10", "--scene", str(scene), "--", *options])
-    assert figures["frames"] == 20
+    figures = fly(["--minutes", "0.05", "--hurry", "4", "--rate", "10", "--scene", str(scene), "--", *options])
+    assert figures["frames"] == 30
+    assert figures["seconds_of_flight"] == pytest.approx(3.0)
+    assert 0.7 < figures["seconds"] < 2.8  # 29 intervals at four times real time
     assert figures["frames_lost"] == figures["pictures_not_seen"] == 0
     assert 0.0 < figures["latency_p50_ms"] < 1e3
     assert "latency_p99_ms" in capsys.readouterr().out

@@ -14,6 +14,7 @@ from cigi_samples import OWN, first_packet, run_tshark, sample, write_pcap
 from sensorsim.trainer.dialect import CIGI_33
 from sensorsim.trainer.encode import encode_message
 from sensorsim.trainer.fields import ByteOrder, Packet
+from sensorsim.trainer.handle_entities import SHORT_AXES
 
 HOST_PORT, IMAGE_PORT = 8000, 8001
 IMAGE_NUMBERS = 101  # packets from here on are the image generator's
@@ -96,3 +97,11 @@ def test_the_reading_tells_a_wrong_field_from_a_right_one(tmp_path: Path) -> Non
     fields = {field.get("name", ""): field for field in element.iter("field")}
     with pytest.raises(AssertionError, match="gain"):
         _compare(packet, fields, "<")
+
+
+def test_choices_of_the_short_part_packet_are_wiresharks() -> None:
+    """What 1 to 6 stand for is no order of the long packet: yaw is 4, roll 6."""
+    rows = [line.split("\t") for line in run_tshark("-G", "values").splitlines()]
+    labels = {int(row[2], 0): row[3] for row in rows if row[:2] == ["V", "cigi.short_art_part_control.dof_select_1"]}
+    shown = {number: label.lower().replace(" offset", "off") for number, label in labels.items() if number}
+    assert shown == dict(enumerate(SHORT_AXES, start=1))

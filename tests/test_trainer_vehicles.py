@@ -16,10 +16,12 @@ from test_trainer_pictures import SENSORS, VIEW, frame
 from sensorsim.errors import InputError
 from sensorsim.render import Renderer, look_at
 from sensorsim.scene import LocalFrame
+from sensorsim.tables.shade import surface_temperature
+from sensorsim.thermal.view_factors import quadrant_view_factors
 from sensorsim.trainer.appearance import thermal_state
 from sensorsim.trainer.dis_feed import DisFeed
 from sensorsim.trainer.dis_listener import HeardEntity
-from sensorsim.trainer.fleet import EMISSIVITY, METAL, Fleet, skin_wall
+from sensorsim.trainer.fleet import EMISSIVITY, Fleet, skin_wall
 from sensorsim.trainer.frame_request import EntityRequest
 from sensorsim.trainer.host_state import Component
 from sensorsim.trainer.local_place import LocalPlace
@@ -28,7 +30,7 @@ from sensorsim.trainer.scene_pictures import ScenePictures
 from sensorsim.trainer.things import ENGINE, FIRE, Thing, things_asked, things_heard
 from sensorsim.trainer.udp import Endpoint
 from sensorsim.trainer.vehicle_file import part_of, read_vehicle
-from sensorsim.trainer.vehicle_shape import PARTS, VehicleShape, box, cylinder, face_area
+from sensorsim.trainer.vehicle_shape import METAL, PARTS, VehicleShape, box, cylinder, face_area
 from sensorsim.trainer.vehicles import built_in_vehicles
 
 TEN = 36000.0
@@ -158,6 +160,21 @@ def test_the_skin_is_the_sunlit_metal_of_the_tables() -> None:
     lit, unlit = cold.temperature[facing > 0.95 * facing.max()], cold.temperature[facing < 0.0]
     assert lit.mean() > unlit.mean() + 1.0
     np.testing.assert_allclose(np.linalg.norm(cold.normal, axis=1), 1.0)
+
+
+def test_vehicles_found_together_are_as_each_is_alone() -> None:
+    """Many faces look the same way: what is found for all of them at once is what is found face by face."""
+    several = [thing(key=(1,), angles=(10.0, 0.0, 0.0)), thing(key=(2,), model="truck", angles=(200.0, 5.0, -3.0))]
+    together = Fleet(built_in_vehicles()).solids(several, 0.0, town(), TEN)
+    alone = [Fleet(built_in_vehicles()).solids([one], 0.0, town(), TEN) for one in several]
+    assert together is not None
+    for name in ("temperature", "quarters", "normal"):
+        expected = np.concatenate([getattr(one, name) for one in alone])
+        np.testing.assert_allclose(getattr(together, name), expected, rtol=1e-12, atol=1e-12)
+    wall, count = skin_wall(town()), len(together.normal)
+    skin = surface_temperature(town().tables, together.normal, np.full(count, wall), np.full(count, 0.25), TEN)
+    np.testing.assert_allclose(together.temperature, skin, atol=1e-5)
+    np.testing.assert_allclose(together.quarters, quadrant_view_factors(together.normal), atol=1e-7)
 
 
 @pytest.mark.parametrize("planes", [None, ("display",)], ids=["all planes", "display alone"])

@@ -62,6 +62,7 @@ def test_a_set_holds_its_items_and_a_sum_that_is_right() -> None:
     assert sum(struct.unpack(f">{len(words) // 2}H", words)) % 65536 == struct.unpack(">H", items[1])[0]
     assert checksum(b"") == 0
     assert checksum(b"\x01") == 256
+    assert checksum(bytes.fromhex("060e2b34020081bb")) == 0xB4FD  # the standard's own example
 
 
 def test_ends_of_ranges_are_the_ends_of_the_integers() -> None:

@@ -88,7 +88,7 @@ def test_palettes_cameras_levels_and_weather_go_round() -> None:
     for key, read, count in (
         ("K", lambda s: s.palette, len(PALETTES)),
         ("C", lambda s: s.station, 2),
-        ("F", lambda s: s.place.level, 3),
+        ("F", lambda s: s.place.level, 4),
         ("J", lambda s: s.place.weather, 3),
     ):
         seen, now = [], state()

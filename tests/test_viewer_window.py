@@ -133,6 +133,10 @@ def test_start_fly_scrub_switch_sensor_save_and_quit(screen: dict[str, str], tow
         assert planes.name.startswith("town_lltv_")
         shown = imageio.imread(hand.save("F10", "window_001.png"))
         assert shown.shape == (540, 960, 3)
+        hand.do("key", "u")
+        listed = imageio.imread(hand.save("F10", "window_002.png"))
+        changed = np.any(listed != shown, axis=2)[70:500, 320:800]
+        assert changed.mean() > 0.5  # the list of effects lies over the picture
         hand.do("key", "Escape")
         assert viewer.wait(TIMEOUT) == 0, (tmp_path / "log.txt").read_text()
     finally:

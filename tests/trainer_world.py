@@ -48,10 +48,10 @@ AROUND = Surroundings(place=PLACE, terrain=box_and_ground())
 class Host:
     """A host of one image generator, frame by frame."""
 
-    def __init__(self, dialect: Dialect = CIGI_33, **settings: object) -> None:
+    def __init__(self, dialect: Dialect = CIGI_33, around: Surroundings = AROUND, **settings: object) -> None:
         start: dict[str, object] = {"start": NOON, "dialect": dialect}
         self.dialect = dialect
-        self.ig = ImageGenerator(ImageSettings(**(start | settings)), AROUND, utc_offset=UTC_OFFSET)  # type: ignore[arg-type]
+        self.ig = ImageGenerator(ImageSettings(**(start | settings)), around, utc_offset=UTC_OFFSET)  # type: ignore[arg-type]
         self.time = 0.0
         self.said: tuple[str, ...] = ()
 

@@ -1,11 +1,12 @@
 """An example of a trainer's host: flies an approach to the hospital and prints how long pictures take.
 
     python tools/example_host.py --seconds 60                      # starts `sensorsim serve` itself, ends it again
+    python tools/example_host.py --minutes 10 --hurry 2            # ten minutes of flight in five, if frames allow
     python tools/example_host.py --seconds 60 --ring FILE --port 8000 --listen 8001       # drives one that is running
 
 It answers every Start of Frame with one message: IG Control, the ownship's Entity Control and, with the first, View
-Definition and Sensor Control. Latency is from the message sent to the picture of that frame found in the ring.
-Everything stays on 127.0.0.1.
+Definition and Sensor Control. The flight goes on by one frame's time with each of them, however long it took. Latency
+is from the message sent to the picture of that frame found in the ring. Everything stays on 127.0.0.1.
 """
 
 import argparse
@@ -52,7 +53,10 @@ class Findings:
     memory: list[tuple[float, int]] = field(default_factory=list)
 
     def summary(self, rate: float) -> dict[str, float | int | None]:
-        """Figures in ms, frames and MiB; memory grown from the first quarter of the flight to its last."""
+        """Figures in ms, frames and MiB, of a flight at so many frames per second of it [Hz].
+
+        Late: a frame whose picture took longer than its time. Memory: grown from the second quarter to the last.
+        """
         intervals = np.diff(self.begun)
         numbers = np.diff(self.frames)
         grown = None
@@ -62,12 +66,13 @@ class Findings:
             grown = (np.mean([size for _, size in last]) - np.mean([size for _, size in first])) / 2**20
         return {
             "seconds": self.begun[-1] - self.begun[0],
+            "seconds_of_flight": len(self.frames) / rate,
             "frames": len(self.frames),
             "frames_lost": int(np.sum(numbers - 1)),
             "pictures_not_seen": self.missed,
             "rate_Hz": float(len(intervals) / np.sum(intervals)),
             "interval_p99_ms": 1e3 * float(np.quantile(intervals, 0.99)),
-            "frames_late": int(np.sum(intervals > 1.5 / rate)),
+            "frames_late": int(np.sum(np.array(self.latency) > 1.0 / rate)) + self.missed,
             "latency_p50_ms": 1e3 * float(np.quantile(self.latency, 0.5)) if self.latency else None,
             "latency_p99_ms": 1e3 * float(np.quantile(self.latency, 0.99)) if self.latency else None,
             "memory_growth_MiB": grown,
@@ -121,15 +126,22 @@ def first_words() -> list[Packet]:
 
 
 def fly(
-    link: socket.socket, target: int, ring: RingReader, way: Approach, *, frames: int, process: int | None
+    link: socket.socket,
+    target: int,
+    ring: RingReader,
+    way: Approach,
+    *,
+    frames: int,
+    rate: float,
+    process: int | None,
 ) -> Findings:
-    """Answers so many Starts of Frame and looks for each picture."""
+    """Answers so many Starts of Frame, `rate` of them to a second of flight, and looks for each picture."""
     findings, begun, seen = Findings(), 0.0, 0
     for count in range(frames + WARM_UP):
         number = _start_of_frame(link)
         now = time.monotonic()
         begun = begun or now
-        packets = [ownship(way, now - begun), *(first_words() if count == 0 else [])]
+        packets = [ownship(way, count / rate), *(first_words() if count == 0 else [])]
         control = make_packet(
             CIGI_33, "ig_control", ig_mode=1, timestamp_valid=1, host_frame_number=count, last_ig_frame_number=number,
             timestamp=round(now * 1e5) % 2**32, extrapolation_enable=1,
@@ -210,28 +222,31 @@ def wait_for_ring(path: Path, patience: float) -> RingReader:
 def main(words: Sequence[str] | None = None) -> dict[str, float | int | None]:
     """Flies and prints; gives the figures."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=60.0)
-    parser.add_argument("--rate", type=float, default=60.0, help="of the image generator [Hz]")
+    parser.add_argument("--seconds", type=float, default=60.0, help="of flight")
+    parser.add_argument("--minutes", type=float, help="of flight, in place of seconds")
+    parser.add_argument("--rate", type=float, default=60.0, help="frames to a second of flight [Hz]")
+    parser.add_argument("--hurry", type=float, default=1.0, help="times real time that our own server is asked for")
     parser.add_argument("--scene", default="hospital")
     parser.add_argument("--port", type=int, default=0, help="of a running image generator; 0 starts one")
     parser.add_argument("--listen", type=int, default=0, help="port to hear a running image generator on")
     parser.add_argument("--ring", type=Path, help="ring of a running image generator")
     parser.add_argument("serve", nargs="*", help="options of `sensorsim serve`, after --")
     asked = parser.parse_args(words)
-    frames, way = round(asked.seconds * asked.rate), approach(load_scene(asked.scene, level="IIIB"))
+    seconds = asked.seconds if asked.minutes is None else 60.0 * asked.minutes
+    frames, way = round(seconds * asked.rate), approach(load_scene(asked.scene, level="IIIB"))
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link, tempfile.TemporaryDirectory() as folder:
         link.bind((LOOPBACK, asked.listen))
         link.settimeout(SILENCE)
         if asked.port:
             with wait_for_ring(asked.ring, SILENCE) as ring:
-                found = fly(link, asked.port, ring, way, frames=frames, process=None)
+                found = fly(link, asked.port, ring, way, frames=frames, rate=asked.rate, process=None)
         else:
             path = Path(folder) / "pictures"
             with (
-                server(asked.scene, asked.serve, link, path, asked.rate) as (port, process),
+                server(asked.scene, asked.serve, link, path, asked.hurry * asked.rate) as (port, process),
                 wait_for_ring(path, SILENCE) as ring,
             ):
-                found = fly(link, port, ring, way, frames=frames, process=process)
+                found = fly(link, port, ring, way, frames=frames, rate=asked.rate, process=process)
     figures = found.summary(asked.rate)
     print(json.dumps(figures, indent=1))
     return figures

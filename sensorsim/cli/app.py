@@ -15,7 +15,9 @@ from sensorsim.cli.render import render
 from sensorsim.cli.scene import scene
 from sensorsim.cli.serve import serve
 from sensorsim.cli.study_accuracy import accuracy
+from sensorsim.cli.study_city import city
 from sensorsim.cli.study_effects import effects as study_effects
+from sensorsim.cli.study_pictures import pictures
 from sensorsim.cli.study_sensitivity import sensitivity
 from sensorsim.cli.study_stability import stability
 from sensorsim.cli.view import view
@@ -34,7 +36,9 @@ for command in (render, view, serve, capture, bench, gallery, diff, effects, sce
     app.command()(command)
 study = typer.Typer(help="What the model's choices are worth, measured.", no_args_is_help=True)
 study.command("accuracy")(accuracy)
+study.command("city")(city)
 study.command("effects")(study_effects)
+study.command("pictures")(pictures)
 study.command("sensitivity")(sensitivity)
 study.command("stability")(stability)
 app.add_typer(study, name="study")

@@ -2,10 +2,11 @@
 
 import math
 import multiprocessing
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
-from datetime import date, datetime
+from dataclasses import dataclass, replace
+from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -14,31 +15,43 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from sensorsim.cli.options import (
+    Aerosol,
+    AnyLevel,
+    Atmosphere,
     Backend,
     Effects,
-    Level,
+    Enhance,
+    Exchange,
     Preset,
+    Radiance,
     SceneName,
+    Settle,
+    Visibility,
     bake_progress,
     find_weather,
     local_day,
     make_folder,
+    read_atmosphere,
     read_effects,
     read_moment,
+    read_scene,
     read_size,
+    show_warnings,
+    with_display,
 )
 from sensorsim.cli.render import read_camera
 from sensorsim.constants import SECONDS_PER_DAY
-from sensorsim.effects import EffectChoice
-from sensorsim.environment import Weather
+from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import CameraPath, read_camera_path
-from sensorsim.frames.sequence import SequenceOptions, Shot, blocks, draw_block, frame_path
+from sensorsim.frames.sequence import SequenceOptions, Shot, draw_block, frame_path, sequence_blocks
+from sensorsim.frames.side_by_side import join_frames
 from sensorsim.frames.video import VIDEO_SUFFIXES, write_video
 from sensorsim.render import Renderer, World, build_world
-from sensorsim.scene import Scene, load_scene
+from sensorsim.render.air import DEFAULT_ATMOSPHERE
+from sensorsim.render.detail import DetailRule
+from sensorsim.scene import Scene
 from sensorsim.sensor import Sensor, load_sensor
-from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
 
 FORMATS = ("png", "exr", "npy", "tiff")
@@ -53,9 +66,11 @@ class _Job:
     size: tuple[int, int] | None
     samples: int
     backend: str
+    atmosphere: str
     shots: tuple[Shot, ...]
     numbers: range
     options: SequenceOptions
+    detail: DetailRule
 
 
 def capture(
@@ -71,7 +86,7 @@ def capture(
     rate: Annotated[
         float | None, typer.Option(help="Frames per second along a path; its own times if left out.")
     ] = None,
-    level: Level = "IIIB",
+    level: AnyLevel = "IIIB",
     sensors: Annotated[str, typer.Option(help="Sensors, with commas between.")] = "flir",
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; each sensor's own if left out.")] = None,
     samples: Annotated[int, typer.Option(help="Samples per pixel's side of sensors with optics: 1, 3, 5 or 7.")] = 1,
@@ -81,51 +96,82 @@ def capture(
         str, typer.Option("--format", help="png (with planes beside it), exr, npy or tiff.")
     ] = "png",
     plane_format: Annotated[str, typer.Option(help="Of planes beside a png: exr, npy, png or tiff.")] = "exr",
+    enhance: Enhance = None,
+    settle: Settle = None,
     video: Annotated[str | None, typer.Option(help="Also join the pictures: mp4 or gif.")] = None,
     video_rate: Annotated[float, typer.Option(help="Pictures per second of the video.")] = 30.0,
-    jobs: Annotated[int, typer.Option(help="Processes that draw side by side.")] = 1,
+    side_by_side: Annotated[
+        bool, typer.Option("--side-by-side", help="Also join the sensors' pictures of each moment, and their videos.")
+    ] = False,
+    jobs: Annotated[int, typer.Option(help="Processes that draw at once.")] = 1,
+    atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
+    radiance: Radiance = "apparent",
+    visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
+    aerosol: Aerosol = "rural",
     preset: Preset = "standard",
+    exchange: Exchange = False,
     effects: Effects = "auto",
     backend: Backend = "auto",
 ) -> None:
     """Render a sequence; run again, it goes on where it was cut off, without redoing what is whole."""
     _check(jobs, every, file_format, video)
-    devices = [load_sensor(name) for name in sensors.split(",")]
-    pixels = None if size is None else read_size(size)
-    moment, place = read_moment(at), load_scene(scene, level=level)
+    devices = [with_display(one, detail=enhance, settle=settle) for one in _sensors(sensors, side_by_side, file_format)]
+    pixels, air = None if size is None else read_size(size), read_atmosphere(atmosphere, radiance)
+    moment = read_moment(at)
+    place, detail = read_scene(scene, level)
     route = _route(place, path, rate, camera, moment, until, every)
     names = tuple(name for name in planes.split(",") if name)
-    choice = read_effects(effects, names)
     found = find_weather(weather, local_day(moment, place.site.utc_offset))
-    day = local_day(moment, found.site.utc_offset)
-    settings = bake_preset(preset)
-    worlds = [_world(place, found, day, settings, choice, device) for device in devices]
+    build = partial(
+        build_world, place, found, image_day=local_day(moment, found.site.utc_offset),
+        settings=replace(bake_preset(preset), exchange=exchange), visibility=1000.0 * visibility, aerosol=aerosol,
+        effects=read_effects(effects, names),
+    )  # fmt: skip
+    worlds = [_world(build, device) for device in devices]
+    show_warnings(warning for world in worlds for warning in world.warnings)
     shots = _shots(route, moment, worlds[0])
     make_folder(out)
     options = SequenceOptions(folder=out, planes=names, plane_format=plane_format, suffix=f".{file_format}")
     work = [
         _Job(
             world=world, sensor=device, size=pixels, samples=samples if device.detector else 1, backend=backend,
-            shots=shots, numbers=numbers, options=options,
+            atmosphere=air, shots=shots, numbers=numbers, options=options, detail=detail,
         )
         for world, device in zip(worlds, devices, strict=True)
-        for numbers in blocks(len(shots))
+        for numbers in sequence_blocks(device, shots)
     ]  # fmt: skip
     _draw_all(work, jobs, len(shots) * len(devices))
-    for device in devices if video else ():
-        target = out / f"{device.name}.{video}"
-        write_video([frame_path(options, device, shot.number) for shot in shots], target, video_rate)
-        Console(soft_wrap=True).print(f"wrote {target}", markup=False, highlight=False)
+    series = {device.name: [frame_path(options, device, shot.number) for shot in shots] for device in devices}
+    _finish(series, out, side_by_side, video, video_rate)
 
 
-def _world(
-    scene: Scene, weather: Weather, day: date, settings: BakeSettings, choice: EffectChoice, sensor: Sensor
-) -> World:
+def _sensors(names: str, side_by_side: bool, file_format: str) -> list[Sensor]:
+    devices = [load_sensor(name) for name in names.split(",")]
+    if side_by_side and (len(devices) < 2 or file_format != "png"):
+        remedy = "give --sensors flir,lltv and --format png"
+        raise InputError("command line", "--side-by-side", names, "needs pictures of two sensors", remedy)
+    return devices
+
+
+def _world(build: Callable[..., World], sensor: Sensor) -> World:
     """The scene for one sensor: what may be left out depends on its noise."""
     with bake_progress("baking") as progress:
-        return build_world(
-            scene, weather, image_day=day, settings=settings, progress=progress, effects=choice, sensor=sensor
-        )
+        return build(progress=progress, sensor=sensor)
+
+
+def _finish(
+    series: Mapping[str, Sequence[Path]], out: Path, side_by_side: bool, video: str | None, rate: float
+) -> None:
+    """Pictures of several sensors joined, and videos of all."""
+    shown = dict(series)
+    if side_by_side:
+        name = "_".join(series)
+        shown[name] = [out / f"{name}_{number:06d}.png" for number in range(len(next(iter(series.values()))))]
+        for target, *pictures in zip(shown[name], *series.values(), strict=True):
+            join_frames(pictures, target)
+    for name, frames in shown.items() if video else ():
+        write_video(frames, out / f"{name}.{video}", rate)
+        Console(soft_wrap=True).print(f"wrote {out / f'{name}.{video}'}", markup=False, highlight=False)
 
 
 def _check(jobs: int, every: float, file_format: str, video: str | None) -> None:
@@ -203,5 +249,8 @@ def _outcomes(work: Sequence[_Job], jobs: int) -> Iterator[tuple[int, int]]:
 
 def _draw(job: _Job) -> tuple[int, int]:
     """One block: frames done, frames newly written."""
-    with Renderer(job.world, job.sensor, size=job.size, samples=job.samples, backend=job.backend) as renderer:
+    with Renderer(
+        job.world, job.sensor, size=job.size, samples=job.samples, backend=job.backend, atmosphere=job.atmosphere,
+        detail=job.detail,
+    ) as renderer:  # fmt: skip
         return len(job.numbers), draw_block(renderer, job.shots, job.numbers, job.options)

@@ -11,29 +11,36 @@ from rich.console import Console
 
 from sensorsim.cli.options import (
     Aerosol,
+    AnyLevel,
     AsJson,
     Atmosphere,
     Backend,
     Effects,
-    Level,
+    Enhance,
+    Exchange,
     Preset,
+    Radiance,
     SceneName,
     Visibility,
     bake_progress,
     find_weather,
     local_day,
     make_folder,
+    read_atmosphere,
     read_effects,
     read_moment,
+    read_scene,
     read_size,
+    show_warnings,
+    with_display,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.frames import Frame, plane_names, require_writable, take_frame, write_frame
 from sensorsim.radiometry import build_band_table
 from sensorsim.render import Camera, Renderer, build_world, station_camera
-from sensorsim.render.air import DEFAULT_ATMOSPHERE, check_atmosphere
-from sensorsim.scene import Scene, load_scene
+from sensorsim.render.air import DEFAULT_ATMOSPHERE
+from sensorsim.scene import Scene
 from sensorsim.sensor import DisplaySettings, Sensor, load_sensor, window_from_temperatures
 from sensorsim.tables import preset as bake_preset
 
@@ -44,7 +51,7 @@ def render(
         str, typer.Option(help="Local standard time, ISO 8601: 1976-02-07T10:00, or with its own UTC offset.")
     ],
     out: Annotated[Path, typer.Option(help="File of the picture: .png, or .exr, .npy, .tiff for planes alone.")],
-    level: Level = "IIIB",
+    level: AnyLevel = "IIIB",
     sensor: Annotated[
         str, typer.Option(help="Sensor that comes with the package (flir, lltv), or a TOML file.")
     ] = "flir",
@@ -58,60 +65,47 @@ def render(
         str | None, typer.Option(help="winter, summer, fall or a CSV file; by date if left out.")
     ] = None,
     planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
-    plane_format: Annotated[str, typer.Option(help="exr, npy, or png and tiff in centikelvin.")] = "exr",
+    plane_format: Annotated[
+        str, typer.Option(help="exr, npy, or png and tiff of 16 bits: centikelvin, counts.")
+    ] = "exr",
     window: Annotated[str | None, typer.Option(help="Black and white as temperatures COLD:WARM [K].")] = None,
     polarity: Annotated[str | None, typer.Option(help="white-hot or black-hot; the sensor's own if left out.")] = None,
+    enhance: Enhance = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
-    radiance: Annotated[
-        str, typer.Option(help="apparent, as it reaches the sensor, or source, as it leaves the surfaces.")
-    ] = "apparent",
+    radiance: Radiance = "apparent",
     visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
     aerosol: Aerosol = "rural",
     preset: Preset = "standard",
-    exchange: Annotated[
-        bool,
-        typer.Option(
-            "--exchange", help="Near surfaces see each other by long waves and diffuse light, without shadows."
-        ),
-    ] = False,
+    exchange: Exchange = False,
     effects: Effects = "auto",
     backend: Backend = "auto",
     as_json: AsJson = False,
 ) -> None:
     """Render one frame and write it with a sidecar of all its inputs."""
-    device = load_sensor(sensor)
+    device = with_display(load_sensor(sensor), detail=enhance)
     pixels = device.size if size is None else read_size(size)
     display = _display(device, window, polarity)
     wanted = [name for name in planes.split(",") if name]
     require_writable(out, plane_names(device), planes=wanted, plane_format=plane_format)
     choice = read_effects(effects, wanted)
     moment = read_moment(at)
-    place = load_scene(scene, level=level)
+    place, detail = read_scene(scene, level)
     view = read_camera(place, camera, field_of_view)
     series = find_weather(weather, local_day(moment, place.site.utc_offset))
     day = local_day(moment, series.site.utc_offset)
     settings = replace(bake_preset(preset), exchange=exchange)
-    air = _atmosphere(atmosphere, radiance)
+    air = read_atmosphere(atmosphere, radiance)
     make_folder(out.parent)
     with bake_progress("baking") as progress:
         world = build_world(
             place, series, image_day=day, settings=settings, progress=progress, visibility=1000.0 * visibility,
             aerosol=aerosol, effects=choice, sensor=device,
         )  # fmt: skip
-    for warning in world.warnings:
-        Console(stderr=True, soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
-    with Renderer(world, device, size=pixels, backend=backend, atmosphere=air) as renderer:
+    show_warnings(world.warnings)
+    with Renderer(world, device, size=pixels, backend=backend, atmosphere=air, detail=detail) as renderer:
         frame = take_frame(renderer, view, moment, display=display, fit_error="fit_error" in wanted)
     files = write_frame(frame, out, planes=wanted, plane_format=plane_format)
     _report(frame, files, as_json)
-
-
-def _atmosphere(name: str, radiance: str) -> str:
-    """Name of the air to look through: none of it for what leaves the surfaces."""
-    if radiance not in ("source", "apparent"):
-        raise InputError("command line", "--radiance", radiance, "unknown", "use source or apparent")
-    check_atmosphere(name)
-    return name if radiance == "apparent" else "none"
 
 
 def read_camera(scene: Scene, text: str | None, field_of_view: float | None) -> Camera:
@@ -145,7 +139,7 @@ def _display(sensor: Sensor, window: str | None, polarity: str | None) -> Displa
     except NumericsError as error:
         remedy = "give temperatures from 150 to 700 K"
         raise InputError("command line", "--window", window, "outside of the sensor's table", remedy) from error
-    return DisplaySettings(polarity=chosen, level=level, span=span)
+    return replace(sensor.display, polarity=chosen, level=level, span=span)
 
 
 def _report(frame: Frame, files: list[Path], as_json: bool) -> None:

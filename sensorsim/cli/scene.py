@@ -6,17 +6,18 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from sensorsim.cli.options import AsJson, Level, SceneName
+from sensorsim.cli.options import AnyLevel, AsJson, SceneName, read_scene
 from sensorsim.materials import load_catalogue
-from sensorsim.scene import Audit, audit_scene, load_scene
+from sensorsim.scene import Audit, audit_scene
+from sensorsim.scene.audit import LevelKin
 from sensorsim.tables import resolve_classes
 from sensorsim.tables.assign import resolve_surface_word
 
 
-def scene(name: SceneName, level: Level = "IIIB", as_json: AsJson = False) -> None:
+def scene(name: SceneName, level: AnyLevel = "IIIB", as_json: AsJson = False) -> None:
     """Print a scene's counts, its materials, and missing or ambiguous words with the reading chosen."""
     catalogue = load_catalogue()
-    place = resolve_classes(load_scene(name, level=level), catalogue)
+    place = resolve_classes(read_scene(name, level)[0], catalogue)
     names = dict(catalogue.codes)
     notes = {}
     for word, row in zip(*np.unique(place.surfaces.word, return_index=True), strict=True):
@@ -58,10 +59,20 @@ def _show(audit: Audit) -> None:
         used = f"{reading.roof_word_used} / {reading.wall_word_used}"
         readings.add_row(_short(reading.numbers), reading.description, printed, used, reading.note)
     console.print(readings)
-    for condition, numbers in audit.interiors.items():
-        console.print(f"interior {condition}: {_short(numbers)}")
+    interiors = (f"interior {condition}: {_short(numbers)}" for condition, numbers in audit.interiors.items())
+    for line in (*map(_kin, audit.levels), *interiors):
+        console.print(line)
     for note in audit.notes:
         console.print(f"- {note}", style="dim")
+
+
+def _kin(kin: LevelKin) -> str:
+    """How one level stands in the next coarser one."""
+    parts = {"beside one": kin.near, "not at the coarser level": kin.none, "not at the finer level": kin.childless}
+    told = "".join(f"; {name}: {', '.join(numbers)}" for name, numbers in parts.items() if numbers)
+    return (
+        f"level {kin.level}: {kin.features} features, {kin.ground} of the ground, {kin.overlap} in a coarser one{told}"
+    )
 
 
 def _short(numbers: tuple[str, ...]) -> str:

@@ -2,7 +2,7 @@
 
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from datetime import date, datetime
@@ -54,6 +54,7 @@ from sensorsim.trainer.scene_pictures import ScenePictures
 from sensorsim.trainer.things import TYPES, Thing
 from sensorsim.trainer.vehicle_file import read_vehicle
 from sensorsim.trainer.vehicle_shape import VehicleShape
+from sensorsim.trainer.vehicles import built_in_vehicles
 
 ENDLESS = 10**9
 
@@ -95,7 +96,8 @@ def serve(
     world = _world(place, series, local_day(moment, series.site.utc_offset), settings)
     start = moment if moment.tzinfo else moment.replace(tzinfo=world.environment.image_start.tzinfo)
     asked = _settings(start, len(sensors), cigi, asynchronous)
-    ig = ImageGenerator(asked, _around(place), utc_offset=series.site.utc_offset)
+    shapes = {**built_in_vehicles(), **_models(model or [])}
+    ig = ImageGenerator(asked, _around(place, shapes), utc_offset=series.site.utc_offset)
 
     def told(done: Baked) -> None:
         say(f"bake of {done.request.day}: {done.reason or 'done, in use'}")
@@ -106,7 +108,7 @@ def serve(
         stopped = stack.enter_context(_stopped_by_signals())
         draw = ScenePictures(
             world, sensors, size_of, bake=_baker(place, series, settings), on_bake=told, say=say, backend=backend,
-            planes=outlets.planes, shapes=_models(model or []),
+            planes=outlets.planes, shapes=shapes,
             heard=_heard(stack, endpoint, dis, ig.around.place),
         )  # fmt: skip
         stack.enter_context(draw).prepare(range(len(sensors)))
@@ -135,8 +137,8 @@ def _settings(start: datetime, views: int, cigi: str, asynchronous: bool) -> Ima
     )
 
 
-def _around(scene: Scene) -> Surroundings:
-    return Surroundings(place=scene_place(scene), terrain=build_terrain(scene))
+def _around(scene: Scene, shapes: Mapping[str, VehicleShape]) -> Surroundings:
+    return Surroundings(place=scene_place(scene), terrain=build_terrain(scene), shapes=shapes)
 
 
 def _baker(scene: Scene, series: Weather, settings: BakeSettings) -> BackgroundBake:

@@ -18,7 +18,7 @@ from sensorsim.errors import InputError
 from sensorsim.materials import load_catalogue
 from sensorsim.scene import load_scene
 from sensorsim.study import require_plot
-from sensorsim.study.accuracy import Accuracy, catalogue_days, scene_days, study_accuracy
+from sensorsim.study.accuracy import Accuracy, catalogue_days, scene_days, still_moment, study_accuracy
 from sensorsim.study.accuracy_report import accuracy_json, write_accuracy
 from sensorsim.study.accuracy_trials import plan_trials
 from sensorsim.study.pareto import Advice, advise
@@ -35,6 +35,7 @@ def accuracy(
     out: Annotated[Path, typer.Option(help="Folder of the page and the tables.")] = Path("out/accuracy"),
     days: Annotated[str, typer.Option(help="Image days, ISO dates with commas between.")] = REPORT_DAYS,
     weather: Annotated[str | None, typer.Option(help="Weather file; by date if left out.")] = None,
+    still: Annotated[bool, typer.Option("--still", help="And 2 September 1976, were it clear and windless.")] = False,
     presets: Annotated[str | None, typer.Option(help="Presets to measure, commas between; all if left out.")] = None,
     factors: Annotated[
         str | None, typer.Option(help="Knobs to turn, commas between, '' for none; all, and combinations, if left out.")
@@ -53,7 +54,7 @@ def accuracy(
     chosen, turned = _names(presets), _names(factors)
     plan_trials(chosen, turned)  # refuses unknown names before anything is solved
     require_plot(Path("accuracy.png"))
-    moments = _moments(days, weather)
+    moments = _moments(days, weather) + ([still_moment()] if still else [])
     with bake_progress("accuracy") as progress:
         surfaces = (
             catalogue_days(load_catalogue(), moments)

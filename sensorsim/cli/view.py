@@ -1,6 +1,8 @@
 """`sensorsim view`: fly through a scene in a window."""
 
+from dataclasses import replace
 from datetime import timedelta
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -8,28 +10,32 @@ import typer
 from rich.console import Console
 
 from sensorsim.cli.options import (
+    AnyLevel,
     Backend,
-    Level,
+    Effects,
     Preset,
     SceneName,
     bake_progress,
     find_weather,
     local_day,
     read_moment,
+    read_scene,
     read_size,
 )
 from sensorsim.cli.render import read_camera
+from sensorsim.effects import read_choice
 from sensorsim.environment import read_weather
 from sensorsim.errors import InputError
 from sensorsim.frames.camera_path import read_camera_path
 from sensorsim.render import World, build_world
-from sensorsim.scene import load_scene
 from sensorsim.sensor import Sensor, load_sensor
 from sensorsim.sensor.load import sensor_names
+from sensorsim.tables import BakeSettings
 from sensorsim.tables import preset as bake_preset
 from sensorsim.tables.bake import Progress
 from sensorsim.viewer import Place, ViewState, read_script
 from sensorsim.viewer.choices import choosable_days, default_day, shipped_days, weather_name
+from sensorsim.viewer.effect_list import baked_choice, with_choice
 from sensorsim.viewer.stage import SCALES
 
 EXTRA = "pip install 'sensorsim[viewer]'"
@@ -40,12 +46,13 @@ def view(
     at: Annotated[
         str | None, typer.Option(help="Local standard time to begin with: 1976-02-07T10:00; 10 h if left out.")
     ] = None,
-    level: Level = "IIIB",
+    level: AnyLevel = "IIIB",
     sensor: Annotated[str, typer.Option(help="Sensor to begin with: a name, or a TOML file.")] = "flir",
     weather: Annotated[
         str | None, typer.Option(help="winter, summer, fall or a file; by date, else winter, if left out.")
     ] = None,
     preset: Preset = "standard",
+    effects: Effects = "all",
     size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of the window in pixels.")] = "1280x720",
     camera: Annotated[
         str | None, typer.Option(help="Camera of the scene, or east,north,up,yaw,pitch in m and deg.")
@@ -66,19 +73,14 @@ def view(
     run_viewer, viewer_options = _window_parts()
     _check(scale, frames)
     sensors, pixels = _sensors(sensor), read_size(size)
-    ground = load_scene(scene, level=level)
-    place = _place(at, weather, level, ground.site.utc_offset)
-    settings = bake_preset(preset)
-
-    def build(asked: Place, progress: Progress) -> World:
-        series = read_weather(asked.weather)
-        baked = load_scene(scene, level=asked.level)
-        return build_world(baked, series, image_day=asked.day, settings=settings, progress=progress)
-
+    ground, rule = read_scene(scene, level)
+    place = replace(_place(at, weather, ground.level, ground.site.utc_offset), choice=read_choice(effects))
+    build = partial(_build, scene, bake_preset(preset))
     opening, first = read_camera(ground, camera, None), load_sensor(sensor).name
     options = viewer_options(
         size=pixels, folder=out, sensors=sensors, days=choosable_days(place.weather, place.day), build=build,
-        backend=backend, frames=frames, script=None if script is None else read_script(script),
+        backend=backend, detail=replace(rule, steady=True), frames=frames,
+        script=None if script is None else read_script(script),
         flight=None if path is None else read_camera_path(path, ground.frame),
     )  # fmt: skip
     with bake_progress("baking") as progress:
@@ -90,6 +92,16 @@ def view(
         sensors=(first, "lltv" if first != "lltv" else "flir"), scale=scale,
     )  # fmt: skip
     run_viewer(world, state, options)
+
+
+def _build(scene: str, settings: BakeSettings, asked: Place, progress: Progress) -> World:
+    """The world of a place; the baker calls it from a thread."""
+    whole, _ = read_scene(scene, asked.level)
+    baked = build_world(
+        whole, read_weather(asked.weather), image_day=asked.day, settings=settings, progress=progress,
+        effects=baked_choice(asked.choice),
+    )  # fmt: skip
+    return with_choice(baked, asked.choice)
 
 
 def _window_parts() -> tuple[Any, Any]:

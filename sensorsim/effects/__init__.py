@@ -21,7 +21,7 @@ from sensorsim.effects.frame_bounds import (
 from sensorsim.effects.ledger import DEFAULT_NOISE, NOISE_SHARE, Bound, Ledger, LedgerRow, decide
 from sensorsim.effects.plan import EVERYTHING, EffectPlan
 from sensorsim.effects.sensor_bounds import sensor_bounds, signal_tolerance
-from sensorsim.effects.surface_bounds import QUARTERS, Situation, surface_bounds
+from sensorsim.effects.surface_bounds import QUARTERS, Situation, film_bound, surface_bounds
 
 __all__ = [
     "DEFAULT_NOISE",
@@ -49,6 +49,7 @@ __all__ = [
     "applicable",
     "decide",
     "emissive_bounds",
+    "film_bound",
     "march_cost",
     "read_choice",
     "reflective_bounds",

@@ -23,10 +23,13 @@ class AirBefore:
         """1 - tau [-] of the longest path to a surface, or more."""
         return float(self.path.weight @ self._opacity(self.longest_range, self.surface_heights))
 
-    @property
-    def dimmest(self) -> float:
-        """Least radiance [W m-2 sr-1] of any endless path through it."""
-        return float(self._glow((*self.surface_heights, 0.0))[0].min())
+    def dimmed(self, radiance: float) -> float:
+        """Least radiance [W m-2 sr-1] through it of anything that radiates so much or more.
+
+        Each term leaves a share and puts the rest of a glow in its place, so that it gives the lesser of both or more.
+        """
+        least, _ = self._glow((*self.surface_heights, 0.0))
+        return float(self.path.weight @ np.minimum(radiance, least))
 
     @property
     def brightest(self) -> float:

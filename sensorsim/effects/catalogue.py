@@ -58,10 +58,15 @@ EFFECTS = (
     _frame("reflected_sun", "light in band straight from sun or moon, from surfaces", _DARK, "reflective"),
     _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
     _part("blur", "optics, motion and size of the detector", "each pixel sees its middle"),
-    _part("noise", "noise and fixed pattern of the detector, and its dead elements", "light and counts alone"),
+    _part("noise", "noise and fixed pattern of the detector", "light and counts alone"),
     _part("memory", "what the detector keeps of the last picture", "each picture on its own"),
     _part("streaks", "a channel's level, lost by coupling", "all levels as they are"),
     _part("halo", "discs of light around bright lights", "none"),
+    _part("blooming", "charge of full wells in the others of their column", "it is drained"),
+    _part("dead_elements", "elements that do not see", "all see"),
+    _part("replacement", "neighbours in place of dead elements", "dead elements show nothing"),
+    _part("interlace", "fields that come in turn: a comb on what moves", "whole frames"),
+    _part("raster_lines", "lines of a raster wider than a row", "a line for each row"),
 )  # fmt: skip
 SUNLIGHT = ("direct_sun", *(effect.name for effect in EFFECTS if effect.sky is not None), "ground_sun")
 NAMES = tuple(effect.name for effect in EFFECTS)

@@ -13,6 +13,7 @@ from sensorsim.materials import Layer
 FloatArray = NDArray[np.float64]
 
 LEAST_RESISTANCE = 1e-6  # [m2 K W-1] stands in where layers have none
+NEWTON_STEPS = 12  # of a smooth balance: each doubles the digits
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -25,6 +26,7 @@ class Face:
     light: float  # greatest solar irradiance, also of some of its terms alone [W m-2]
     emissivity: float  # [-] long-wave
     forced: float  # forced film without rain [W m-2 K-1]
+    least_film: float  # least of it [W m-2 K-1]
     free: float  # free film cubed per kelvin [W3 m-6 K-4]
     rain: float  # film by which rain exchanges heat [W m-2 K-1]
     latent: float  # vapour exchange [W m-2 Pa-1]
@@ -42,7 +44,8 @@ class Limits:
     """Temperatures [K] that no surface leaves, whatever is left out: by the maximum principle.
 
     A surface colder than all of air, sky, ground, room and dew point gains heat from each of them and so cannot be.
-    One warmer than all, air films only cool: it is at most where emission alone balances sun and sky.
+    One warmer than all, air films only cool: it is at most where emission alone balances sun and sky. Where the wind's
+    film is kept, its least value holds a surface closer to the air from both sides.
     """
 
     coldest: float
@@ -55,21 +58,40 @@ class Limits:
         return max(*self.warmest, self.ground) if self.warmest else self.ground
 
 
-def temperature_limits(environment: Environment, faces: Sequence[Face], ground: Face) -> Limits:
-    """Limits of the faces and of the ground plane."""
+def temperature_limits(
+    environment: Environment, faces: Sequence[Face], ground: Face, *, film_kept: bool = False
+) -> Limits:
+    """Limits of the faces and of the ground plane; with `film_kept` as long as the wind's film is not left out."""
     air, sky = environment.air_temperature, environment.sky_temperature
-    rooms = [face.indoors for face in (*faces, ground)]
-    coldest = min(float(air.min()), float(sky.min()), float(dew_point(environment).min()), *(low for low, _ in rooms))
-    level = max(float(air.max()), float(sky.max()))
-    soil = max(level, ground.indoors[1], _balance(ground, level))
-    warmest = tuple(max(soil, face.indoors[1], _balance(face, max(level, soil))) for face in faces)
+    dew, rooms = float(dew_point(environment).min()), [face.indoors for face in (*faces, ground)]
+    hottest, lowest = max(float(air.max()), float(sky.max())), min(dew, *(low for low, _ in rooms))
+    coolest = min(float(air.min()), float(sky.min()), lowest)
+
+    def balance(face: Face, surroundings: float, temperature: float, heat: float) -> float:
+        film = face.least_film if film_kept else 0.0
+        return _balance(face.emissivity, film, radiating=surroundings, air=temperature, heat=heat)
+
+    coldest = min(lowest, *(balance(face, coolest, float(air.min()), 0.0) for face in (*faces, ground)))
+    light, warm = [face.absorptance * face.light + face.traffic for face in (ground, *faces)], float(air.max())
+    soil = max(hottest, ground.indoors[1], balance(ground, hottest, warm, light[0]))
+    warmest = tuple(
+        max(soil, face.indoors[1], balance(face, soil, warm, heat)) for face, heat in zip(faces, light[1:], strict=True)
+    )
     return Limits(coldest=coldest, warmest=warmest, ground=soil)
 
 
-def _balance(face: Face, surroundings: float) -> float:
-    """Temperature [K] at which emission alone balances light and the radiation of surroundings [K]."""
-    heat = (face.absorptance * face.light + face.traffic) / face.emissivity
-    return float((surroundings**4 + heat / STEFAN_BOLTZMANN_CONSTANT) ** 0.25)
+def _balance(emissivity: float, film: float, *, radiating: float, air: float, heat: float) -> float:
+    """Temperature [K] at which emission and a film to the `air` balance `heat` and what radiates from around [K].
+
+    By Newton's method, from where emission alone does, or the air if that is warmer: the balance is convex, and so
+    each step comes closer from above.
+    """
+    grey = emissivity * STEFAN_BOLTZMANN_CONSTANT
+    temperature = max((radiating**4 + heat / grey) ** 0.25, air)
+    for _ in range(NEWTON_STEPS if film > 0.0 else 0):
+        over = grey * (temperature**4 - radiating**4) + film * (temperature - air) - heat
+        temperature -= over / (4.0 * grey * temperature**3 + film)
+    return float(temperature)
 
 
 def dew_point(environment: Environment) -> FloatArray:
@@ -79,12 +101,12 @@ def dew_point(environment: Environment) -> FloatArray:
     return np.asarray(ZERO_CELSIUS + 243.04 * ratio / (17.625 - ratio))
 
 
-def slope(emissivity: float, coldest: float) -> float:
-    """Least growth of a surface's loss with its temperature [W m-2 K-1]: emission alone, at the coldest."""
-    return 4.0 * emissivity * STEFAN_BOLTZMANN_CONSTANT * coldest**3
+def slope(emissivity: float, temperature: float) -> float:
+    """Growth of a surface's emission with its temperature [W m-2 K-1]."""
+    return 4.0 * emissivity * STEFAN_BOLTZMANN_CONSTANT * temperature**3
 
 
-def interior_share(face: Face, coldest: float) -> float:
+def interior_share(face: Face, least_slope: float) -> float:
     """How much of a change of the inner face can reach the outer one within its memory [-], at most.
 
     In the steady state the wall's conductance U and the least slope s share it, U / (U + s), and no response to a
@@ -94,7 +116,7 @@ def interior_share(face: Face, coldest: float) -> float:
     shares = []
     for layers in face.paths:
         resistance = max(sum(layer.thermal_resistance for layer in layers), LEAST_RESISTANCE)
-        steady = 1.0 / (1.0 + resistance * slope(face.emissivity, coldest))
+        steady = 1.0 / (1.0 + resistance * least_slope)
         depth = max((_depth(layer, face.memory) for layer in layers), default=0.0)
         shares.append(min(steady, 2.0 * _erfc_bound(depth)))
     return max(shares, default=1.0)

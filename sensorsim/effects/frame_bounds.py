@@ -1,12 +1,13 @@
 """Upper bounds of what each term of one frame is worth in the band: apparent kelvin where it emits, else radiance.
 
-An apparent temperature changes with radiance by 1 / B', and ln B flattens as temperature grows. So a change dL of a
-radiance that is L at least is worth dL / (L g) at most, where g is the least slope of ln B up to the temperature of L.
-What the air leaves of both, tau dL of tau L at least, is worth no more.
+Apparent temperature rises with radiance ever more slowly, so that of all radiances that are L at least a change dL is
+worth most to L itself: T(L + dL) - T(L). What the air leaves of both, tau dL of tau L at least and of what it adds, is
+worth no more, since ln B flattens as temperature grows. And parts of a change are worth no less together than as one.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -87,11 +88,11 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
     count = look.mirrors.matt.size
     return {
         "reflected_sky": Bound(
-            value=lost * _kelvin_per_radiance(table, min(alone, dimmest)), saves=cost,
+            value=_kelvin(table, min(alone, dimmest), lost), saves=cost,
             reason=f"least emissivity {min(matt, glossy):.3g}",
         ),
         "specular": Bound(
-            value=mirrors * _kelvin_per_radiance(table, dimmest), saves=cost if count else 0.0,
+            value=_kelvin(table, dimmest, mirrors), saves=cost if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "atmosphere": _air(look, dimmest if mirrored else alone, max(own.greatest, spots.greatest), table),
@@ -139,11 +140,11 @@ def _worth_of_emission_alone(mirrors: Mirrors, own: _Span, spots: _Span) -> floa
 def _air(look: Look, dimmest: float, brightest: float, table: BandTable | None) -> Bound:
     """What the air changes of surfaces and, where it is in view, of the ground plane."""
     change = max(look.air.change(dimmest, brightest), look.air.ground_change(look.ground_radiance))
-    least = min(dimmest, look.ground_radiance, look.air.dimmest)
+    least = look.air.dimmed(min(dimmest, look.ground_radiance))
     worst = max(look.air.longest_range, look.air.ground_range)
     path = f"of up to {worst:,.0f} m" if np.isfinite(worst) else "to the horizon"
     return Bound(
-        value=change if table is None or change == 0.0 else change * _kelvin_per_radiance(table, least),
+        value=change if table is None else _kelvin(table, least, change),
         reason=f"a path {path}; up to {100.0 * look.air.worst_opacity:.3g} % of a surface's radiance is lost in it",
         saves=pixel_cost(look.pixels),
     )
@@ -154,15 +155,29 @@ def _radiance(table: BandTable, temperature: float) -> float:
     return float(np.interp(temperature, table.temperature, table.radiance))
 
 
+def _kelvin(table: BandTable, radiance: float, change: float) -> float:
+    """Most kelvin that a change [W m-2 sr-1] of that radiance [W m-2 sr-1] or more is worth, up to the table's end."""
+    ends = np.interp([radiance, radiance + change], table.radiance, table.temperature)
+    return float(ends[1] - ends[0])
+
+
 def _slope_at(table: BandTable, temperature: float) -> float:
     """Slope [W m-2 sr-1 K-1] of the table's piece that holds a temperature [K]; it grows with temperature."""
     piece = int(np.clip(np.searchsorted(table.temperature, temperature), 1, table.temperature.size - 1))
-    return float((np.diff(table.radiance) / np.diff(table.temperature))[piece - 1])
+    return float(
+        (table.radiance[piece] - table.radiance[piece - 1]) / (table.temperature[piece] - table.temperature[piece - 1])
+    )
 
 
 def _kelvin_per_radiance(table: BandTable, radiance: float) -> float:
     """Most kelvin [K W-1 m2 sr] that a change of that radiance [W m-2 sr-1], of any share of it or of more is worth."""
     known = max(radiance, float(table.radiance[0]))
     pieces = max(int(np.searchsorted(table.radiance, known)), 1)
+    return 1.0 / (known * float(_least_steepness(table)[pieces - 1]))
+
+
+@lru_cache(maxsize=16)
+def _least_steepness(table: BandTable) -> FloatArray:
+    """Least relative slope [K-1] of a table's pieces up to each of them."""
     steepness = np.diff(table.radiance) / np.diff(table.temperature) / table.radiance[1:]
-    return 1.0 / (known * float(steepness[:pieces].min()))
+    return np.asarray(np.minimum.accumulate(steepness))

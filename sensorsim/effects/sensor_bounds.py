@@ -12,6 +12,11 @@ _REASON = {
     "memory": "the detector keeps a share of the last picture",
     "streaks": "its channels are coupled by capacitors",
     "halo": "its tube scatters light beyond saturation",
+    "blooming": "its full wells spill",
+    "dead_elements": "some of its elements do not see",
+    "replacement": "it knows its dead elements",
+    "interlace": "its frames come in fields",
+    "raster_lines": "its raster has lines of its own",
 }
 
 

@@ -2,21 +2,21 @@
 
 A face gains q(t) and loses a flux that grows with its temperature T by s at least,
 
-    s = 4 emissivity sigma T_coldest^3   [W m-2 K-1],
+    s = 4 emissivity sigma T_coldest^3 + h   [W m-2 K-1],
 
-as emission does; films of air, evaporation and the wall only add. Leave a term out that is worth up to Q [W m-2], and T
-changes by Q / s at most: Q / s added to the whole wall for good already loses Q more outside, nothing less anywhere
-else, and so bounds the change from above for all times, and its negative from below: the comparison principle of the
-heat equation [Protter1984]. It holds for all terms together with the sum of their Q, so that bounds add up. Walls also
-see the ground plane change, by its own bound times (T_ground / T_coldest)^3, and a mixture or a wall of parallel paths
-changes by no more than its part that changes most. Nothing changes by more than the limits of its temperature leave.
+as emission does, and the wind's film, of h at least, where that is sure to be kept; other films, evaporation and the
+wall only add. Leave a term out that is worth up to Q [W m-2], and T changes by Q / s at most: Q / s added to the whole
+wall for good already loses Q more outside, nothing less anywhere else, and so bounds the change from above for all
+times, and its negative from below: the comparison principle of the heat equation [Protter1984]. It holds for all terms
+together with the sum of their Q, so that bounds add up. Walls also see the ground plane change, by its own bound times
+4 emissivity sigma T_ground^3 / s, and a mixture or a wall of parallel paths changes by no more than its part that
+changes most. Nothing changes by more than the limits of its temperature leave.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.effects.face import Face, FloatArray, Limits, interior_share, slope, temperature_limits
@@ -35,11 +35,12 @@ class Situation:
     environment: Environment
     faces: tuple[Face, ...]
     ground: Face
+    film_kept: bool = False  # whether the wind's film is computed, whatever else is left out
 
     @property
     def limits(self) -> Limits:
         """Temperatures that no surface leaves."""
-        return temperature_limits(self.environment, self.faces, self.ground)
+        return temperature_limits(self.environment, self.faces, self.ground, film_kept=self.film_kept)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -50,6 +51,7 @@ class _Case:
     face: Face
     limits: Limits
     warmest: float  # of the face [K]
+    film_kept: bool
 
     @property
     def apart(self) -> float:
@@ -74,13 +76,22 @@ class _Case:
         return replace(self, face=replace(self.face, latent=0.0))
 
     @property
+    def slope(self) -> float:
+        """Least growth of the face's loss with its temperature [W m-2 K-1]."""
+        return slope(self.face.emissivity, self.limits.coldest) + self.film_kept * self.face.least_film
+
+    @property
     def per_flux(self) -> float:
         """Kelvin per absorbed flux [K m2 W-1]; a skin of water follows the flux itself besides."""
-        return 1.0 / slope(self.face.emissivity, self.limits.coldest) + self.face.skin
+        return 1.0 / self.slope + self.face.skin
 
-    def lit(self, irradiance: npt.ArrayLike) -> float:
-        """Flux [W m-2] of an irradiance (t, m), with what it does to stomata and to the drying of a film of water."""
-        light = self.face.absorptance * float(np.max(irradiance, initial=0.0))
+    def by_ground(self, change: float) -> float:
+        """What a change of the ground plane [K] is worth to the face [K], at most."""
+        return change * slope(self.face.emissivity, self.limits.ground) / self.slope
+
+    def lit(self, irradiance: float) -> float:
+        """Flux [W m-2] of an irradiance, with what it does to stomata and to the drying of a film of water."""
+        light = self.face.absorptance * irradiance
         return light + (self.latent if light > 0.0 and self.face.latent_by_light else 0.0)
 
     def warmed(self, apart: float, share: float) -> float:
@@ -94,32 +105,44 @@ Rule = Callable[[_Case], float]  # W m-2 that a term is worth
 
 def surface_bounds(situation: Situation) -> Mapping[str, Bound]:
     """Bound [K] of each term by its name."""
-    limits = situation.limits
-    bounds = {name: _worth(situation, limits, rule, reason) for name, (rule, reason) in _RULES.items()}
-    bounds["snow"] = _snow(situation, limits)
-    bounds["interior"] = _interior(situation, limits)
+    cases = _cases(situation)
+    bounds = {name: _worth(cases, rule, reason) for name, (rule, reason) in _RULES.items()}
+    if situation.film_kept:  # as far as the others go
+        bounds["forced_convection"] = film_bound(situation)
+    bounds["snow"] = _snow(situation)
+    bounds["interior"] = _interior(cases)
     return bounds
 
 
-def _worth(situation: Situation, limits: Limits, rule: Rule, reason: str) -> Bound:
-    """Kelvin that a flux by `rule` is worth, to the faces directly and by way of the ground."""
-    environment = situation.environment
-    soil = _Case(environment=environment, face=situation.ground, limits=limits, warmest=limits.ground)
-    cases = [
-        _Case(environment=environment, face=face, limits=limits, warmest=warmest)
-        for face, warmest in zip(situation.faces, limits.warmest, strict=True)
-    ]
-    ground = rule(soil) * soil.per_flux
-    seen = ground * (limits.ground / limits.coldest) ** 3
+def film_bound(situation: Situation) -> Bound:
+    """Bound [K] of the wind's film."""
+    return _worth(_cases(replace(situation, film_kept=False)), *_RULES["forced_convection"])
+
+
+def _cases(situation: Situation) -> tuple[_Case, ...]:
+    """The ground plane, and all faces."""
+    limits = situation.limits
+    faces, warmest = (situation.ground, *situation.faces), (limits.ground, *limits.warmest)
+    return tuple(
+        _Case(
+            environment=situation.environment, face=face, limits=limits, warmest=high, film_kept=situation.film_kept
+        )
+        for face, high in zip(faces, warmest, strict=True)
+    )  # fmt: skip
+
+
+def _worth(cases: Sequence[_Case], rule: Rule, reason: str) -> Bound:
+    """Kelvin that a flux by `rule` is worth, to the faces directly and by way of the ground, the first of the cases."""
     fluxes = [rule(case) for case in cases]
-    # No change is greater than all that the limits leave.
-    kelvin = [
-        min(seen * case.down + flux * case.per_flux, case.warmest - limits.coldest)
-        for flux, case in zip(fluxes, cases, strict=True)
+    ground = fluxes[0] * cases[0].per_flux
+    kelvin = [ground] + [
+        case.by_ground(ground) * case.down + flux * case.per_flux
+        for flux, case in zip(fluxes[1:], cases[1:], strict=True)
     ]
     return Bound(
-        value=max([min(ground, limits.ground - limits.coldest), *kelvin]),
-        reason=reason.format(max(rule(case.dry) for case in (soil, *cases))) if any((ground, *fluxes)) else NONE,
+        # No change is greater than all that the limits leave.
+        value=max(min(one, case.warmest - case.limits.coldest) for one, case in zip(kelvin, cases, strict=True)),
+        reason=reason.format(max(rule(case.dry) for case in cases)) if any((ground, *fluxes)) else NONE,
     )
 
 
@@ -136,33 +159,33 @@ def _level(case: _Case) -> FloatArray:
 
 
 def _direct(case: _Case) -> float:
-    return case.lit(case.environment.beam_irradiance[:, None] * _towards_sun(case))
+    return case.lit(float(np.max(case.environment.beam_irradiance[:, None] * _towards_sun(case), initial=0.0)))
 
 
 def _dome(case: _Case) -> float:
     dome = case.environment.diffuse_irradiance * (1.0 - case.environment.circumsolar_brightness)
-    return case.lit(np.outer(dome, _upwards(case)))
+    return case.lit(float(dome.max() * _upwards(case).max()))
 
 
 def _circumsolar(case: _Case) -> float:
     weather = case.environment
     glow = circumsolar_irradiance(weather.diffuse_irradiance, weather.sky_brightness, weather.sun_direction)
-    return case.lit(glow[:, None] * _towards_sun(case))
+    return case.lit(float(np.max(glow[:, None] * _towards_sun(case), initial=0.0)))
 
 
 def _horizon(case: _Case) -> float:
     rim = np.abs(case.environment.diffuse_irradiance * case.environment.horizon_brightness)
-    return case.lit(np.outer(rim, _level(case)))
+    return case.lit(float(rim.max() * _level(case).max()))
 
 
 def _quarter(k: int) -> Rule:
-    return lambda case: case.lit(np.outer(4.0 * case.environment.quadrant_irradiance[:, k], _upwards(case)))
+    return lambda case: case.lit(float(4.0 * case.environment.quadrant_irradiance[:, k].max() * _upwards(case).max()))
 
 
 def _from_ground(case: _Case) -> float:
     weather = case.environment
     level = weather.beam_irradiance * np.maximum(weather.sun_direction[:, 2], 0.0) + weather.diffuse_irradiance
-    return case.lit(np.outer(weather.ground_albedo * level, 1.0 - _upwards(case)))
+    return case.lit(float((weather.ground_albedo * level).max()) * case.down)
 
 
 def _thermal_sky(case: _Case) -> float:
@@ -206,18 +229,18 @@ _RULES: Mapping[str, tuple[Rule, str]] = {
 }
 
 
-def _snow(situation: Situation, limits: Limits) -> Bound:
+def _snow(situation: Situation) -> Bound:
     lying = bool(np.any(situation.environment.ground_state == "snow"))
     if not (lying or any(face.snow for face in (*situation.faces, situation.ground))):
         return Bound(value=0.0, reason="no snow lies in the history")
+    limits = situation.limits
     return Bound(value=limits.greatest - limits.coldest, reason="snow lies: it melts rather than warms, and is bright")
 
 
-def _interior(situation: Situation, limits: Limits) -> Bound:
-    def reach(face: Face, warmest: float) -> float:
-        return interior_share(face, limits.coldest) * (warmest - limits.coldest)
-
-    ground = reach(situation.ground, limits.ground)
-    own = [reach(face, warmest) for face, warmest in zip(situation.faces, limits.warmest, strict=True)]
-    value = max([ground, *(kelvin + ground * (limits.ground / limits.coldest) ** 3 for kelvin in own)])
+def _interior(cases: Sequence[_Case]) -> Bound:
+    reach = [
+        interior_share(case.face, case.slope) * (case.warmest - case.limits.coldest) for case in cases
+    ]  # fmt: skip
+    seen = [0.0, *(case.by_ground(reach[0]) for case in cases[1:])]
+    value = max(own + ground for own, ground in zip(reach, seen, strict=True))
     return Bound(value=value, reason=f"of any change of an inner face {value:.3g} K may reach the outer one")

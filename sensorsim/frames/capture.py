@@ -40,20 +40,23 @@ def take_frame(
     picture = renderer.render(camera, time_of_day, display=display, frame=frame, planes=wanted)
     request = request_settings(renderer, camera, time_of_day, display=display, frame=frame)
     settings: dict[str, JSON] = {**request, **_outcome(renderer, picture), "request_sha256": inputs_sha256(request)}
+    detector = renderer.sensor.detector
+    bits = None if detector is None else detector.bits
     if not fit_error:
-        return build_frame(picture.planes, settings)
+        return build_frame(picture.planes, settings, bits=bits)
     error = surface_fit_error(renderer.world, time_of_day)
     plane = fit_error_plane(error, picture.planes["surface_id"])
     told: dict[str, JSON] = {
         "of": "tables less full solve, without sign",
         "largest_of_all_surfaces_K": float(error.max()),
     }
-    return build_frame({**picture.planes, "fit_error": plane}, {**settings, "fit_error": told})
+    return build_frame({**picture.planes, "fit_error": plane}, {**settings, "fit_error": told}, bits=bits)
 
 
 def plane_names(sensor: Sensor) -> tuple[str, ...]:
-    """Planes that a frame of a sensor has: a signal by a detector, an apparent temperature in emissive bands."""
-    there = {"signal": sensor.detector is not None, "apparent_temperature": sensor.mode == "emissive"}
+    """Planes of a sensor's frames: signal and counts by a detector, an apparent temperature in emissive bands."""
+    there = {"signal": sensor.detector is not None, "counts": sensor.has_counts}
+    there |= {"apparent_temperature": sensor.mode == "emissive"}
     return tuple(name for name in STANDARD_PLANES if there.get(name, True))
 
 
@@ -84,6 +87,7 @@ def request_settings(
     return {
         "sensorsim": __version__,
         "scene": {"name": scene.name, "level": scene.level, "files": [path.name for path in scene.files]},
+        "detail_pixels": None if scene.lineage is None else renderer.detail.pixels,
         "weather": {"name": world.weather.name, "file": world.weather.file.name},
         "warnings": list(world.warnings),
         "day": world.tables.day.isoformat(),
@@ -100,6 +104,8 @@ def request_settings(
         "samples": renderer.samples,
         "frame": frame,
         "air": renderer.atmosphere,
+        "visibility_m": world.environment.visibility,
+        "aerosol": world.environment.aerosol,
         "camera": _camera_settings(renderer, camera),
         "display_asked": None if display is None else {f.name: getattr(display, f.name) for f in fields(display)},
     }
@@ -124,10 +130,18 @@ def _outcome(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         ledger = renderer.ledger(picture.camera, picture.time_of_day, picture.illumination)
     window = {"polarity": display.polarity, "level": display.level, "span": display.span, "unit": "W m-2 sr-1"}
     return {
-        "display": {**window, "tone": display.tone, "gamma": display.gamma},
+        "display": {**window, **{name: getattr(display, name) for name in ("tone", "gamma", "detail", "settle")}},
+        "counts": _count_settings(renderer.sensor, picture),
         "effects": ledger.to_list(),
         "atmosphere": _air_settings(renderer, picture),
     }
+
+
+def _count_settings(sensor: Sensor, picture: Picture) -> JSON:
+    """Depth of the detector's counts and the band radiance of one; nothing of a sensor or a picture without."""
+    if sensor.detector is None or picture.count_step is None:
+        return None
+    return {"bits": sensor.detector.bits, "radiance_per_count_W_m-2_sr-1": picture.count_step}
 
 
 def _lead_in_settings(tables: ShadeTables) -> JSON:

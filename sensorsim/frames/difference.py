@@ -39,6 +39,9 @@ def compare_frames(first: Path | str, second: Path | str, plane: str | None = No
         raise InputError(
             str(second), f"unit of {name}", other.unit, f"the other's is {one.unit}", "compare like with like"
         )
+    if one.bits != other.bits:
+        problem = f"the other's has {one.bits}"
+        raise InputError(str(second), f"bits of {name}", other.bits, problem, "compare counts of one depth")
     if one.data.shape != other.data.shape:
         raise InputError(
             str(second),

@@ -1,4 +1,4 @@
-"""Files of planes: 8-bit PNG, OpenEXR, NPY, and centikelvin in 16-bit PNG and TIFF.
+"""Files of planes: 8-bit PNG, OpenEXR, NPY, and centikelvin or raw counts in 16-bit PNG and TIFF.
 
 Every file but NPY, which has no place for it, carries each plane's name, unit, scale and description: value = stored
 times scale, in that unit. NPY files carry the unit in their name. No file holds a time of writing, so equal frames give
@@ -38,16 +38,16 @@ def npy_bytes(plane: Plane) -> bytes:
     return stream.getvalue()
 
 
-def centikelvin_png_bytes(plane: Plane, inputs: str) -> bytes:
-    """16-bit grey PNG of a temperature plane in centikelvin; errors of `centikelvin`."""
-    return _png_bytes(centikelvin(plane), _labels(plane, CENTIKELVIN, inputs))
+def png16_bytes(plane: Plane, inputs: str) -> bytes:
+    """16-bit grey PNG of temperatures in centikelvin or of raw counts; errors of `sixteen_bits`."""
+    return _png_bytes(sixteen_bits(plane), _labels(plane, scale16(plane), inputs))
 
 
-def centikelvin_tiff_bytes(plane: Plane, inputs: str) -> bytes:
-    """16-bit grey TIFF of a temperature plane in centikelvin, its labels as JSON in ImageDescription."""
+def tiff16_bytes(plane: Plane, inputs: str) -> bytes:
+    """16-bit grey TIFF of temperatures in centikelvin or of raw counts, its labels as JSON in ImageDescription."""
     stream = io.BytesIO()
-    description = json.dumps(_labels(plane, CENTIKELVIN, inputs), sort_keys=True)
-    counts = centikelvin(plane)
+    description = json.dumps(_labels(plane, scale16(plane), inputs), sort_keys=True)
+    counts = sixteen_bits(plane)
     # metadata=None: else tifffile adds a description of its own after ours.
     tifffile.imwrite(
         stream, counts, photometric="minisblack", description=description, metadata=None, software="sensorsim"
@@ -55,11 +55,18 @@ def centikelvin_tiff_bytes(plane: Plane, inputs: str) -> bytes:
     return stream.getvalue()
 
 
-def centikelvin(plane: Plane) -> npt.NDArray[np.uint16]:
-    """Temperatures as counts of 0.01 K, rounded; InputError for another unit and outside 0 to 655.35 K."""
-    where, entry = "centikelvin file", f"plane {plane.name!r}"
+def scale16(plane: Plane) -> float:
+    """What one step of a 16-bit file is worth, in the plane's unit."""
+    return 1.0 if plane.unit == "count" else CENTIKELVIN
+
+
+def sixteen_bits(plane: Plane) -> npt.NDArray[np.uint16]:
+    """Raw counts, or temperatures in steps of 0.01 K; InputError for another unit and outside 0 to 655.35 K."""
+    where, entry = "16-bit file", f"plane {plane.name!r}"
+    if plane.unit == "count" and plane.data.dtype == np.uint16:
+        return plane.data.astype(np.uint16)
     if plane.unit != "K":
-        raise InputError(where, entry, plane.unit, "no temperature in K", "write it as exr or npy")
+        raise InputError(where, entry, plane.unit, "no temperature in K and no counts", "write it as exr or npy")
     kelvin = plane.data.astype(np.float64)
     bad = kelvin[(kelvin < 0.0) | (kelvin > WARMEST_CENTIKELVIN)]
     if bad.size:
@@ -80,6 +87,8 @@ def write_exr(planes: Sequence[Plane], path: Path, inputs: str) -> None:
         header[f"{plane.name}_unit"] = plane.unit
         header[f"{plane.name}_scale"] = 1.0
         header[f"{plane.name}_note"] = plane.description
+        if plane.bits is not None:
+            header[f"{plane.name}_bits"] = plane.bits
         channels[plane.name] = _single_precision(plane)
     with OpenEXR.File(header, channels) as file:
         try:
@@ -98,7 +107,7 @@ def _single_precision(plane: Plane) -> npt.NDArray[np.float32]:
 
 def _labels(plane: Plane, scale: float, inputs: str) -> dict[str, str | float]:
     labels = {"plane": plane.name, "unit": plane.unit, "description": plane.description, "inputs_sha256": inputs}
-    return {**labels, "scale": scale}
+    return {**labels, "scale": scale, **({} if plane.bits is None else {"bits": plane.bits})}
 
 
 def _png_bytes(image: npt.NDArray[np.generic], labels: Mapping[str, str | float]) -> bytes:

@@ -22,7 +22,8 @@ class Plane:
     """One quantity of every pixel.
 
     data (height, width), row 0 at the top; unit as text, '1' for pure numbers; no_surface: the value of pixels that
-    see no surface, None where they have a value of their own. Raises InputError for data that are no image of numbers.
+    see no surface, None where they have a value of their own; bits: of counts, None of all else. Raises InputError for
+    data that are no image of numbers.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Plane:
     unit: str
     description: str
     no_surface: float | None = None
+    bits: int | None = None  # of raw counts
 
     def __post_init__(self) -> None:
         if self.data.ndim != 2 or self.data.size == 0:
@@ -76,12 +78,13 @@ class Frame:
         return self.planes[name]
 
 
-def build_frame(arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping[str, JSON]) -> Frame:
+def build_frame(
+    arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping[str, JSON], *, bits: int | None = None
+) -> Frame:
     """Frame of images (height, width) under the standard names, with their units and descriptions.
 
-    Names: display, radiance, signal, apparent_temperature, surface_temperature, surface_id, feature, fit_error, range.
-    Display becomes uint8 and ids int32; the rest stays float32 or becomes float64. InputError for any other name and
-    for data that the plane's type cannot hold.
+    Names: those of STANDARD_PLANES. Display becomes uint8, counts uint16, of that many `bits`, and ids int32; the rest
+    stays float32 or becomes float64. InputError for any other name and for data that the plane's type cannot hold.
     """
     planes = {}
     for name, data in arrays.items():
@@ -89,7 +92,10 @@ def build_frame(arrays: Mapping[str, npt.NDArray[np.generic]], settings: Mapping
             raise InputError("frame", "plane", name, "unknown", f"use {', '.join(STANDARD_PLANES)}")
         kind, unit, description, no_surface = STANDARD_PLANES[name]
         stored = _stored(name, data, np.dtype(kind))
-        planes[name] = Plane(name=name, data=stored, unit=unit, description=description, no_surface=no_surface)
+        planes[name] = Plane(
+            name=name, data=stored, unit=unit, description=description, no_surface=no_surface,
+            bits=bits if name == "counts" else None,
+        )  # fmt: skip
     return Frame(planes=planes, settings=settings)
 
 
@@ -108,6 +114,7 @@ STANDARD_PLANES: Mapping[str, tuple[type[np.generic], str, str, float | None]] =
     "display": (np.uint8, "1", "display code, 0 black to 255 white", None),
     "radiance": (np.float64, "W m-2 sr-1", "band radiance at the sensor", None),
     "signal": (np.float64, "W m-2 sr-1", "what the detector reports, as band radiance in whole counts", None),
+    "counts": (np.uint16, "count", "raw counts of the detector", None),
     "apparent_temperature": (np.float64, "K", "temperature of the blackbody with the same band radiance", None),
     "surface_temperature": (np.float64, "K", "temperature of the surface seen, 0 where there is none", 0.0),
     "surface_id": (np.int32, "1", "row of the surface seen, -1 where there is none", -1.0),

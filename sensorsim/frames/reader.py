@@ -56,6 +56,7 @@ def read_plane(path: Path | str, name: str) -> Plane:
         unit=entry["unit"],
         description=entry["description"],
         no_surface=entry["no_surface"],
+        bits=entry.get("bits"),
     )
 
 
@@ -69,4 +70,4 @@ def _decode(file: Path, entry: dict[str, Any]) -> npt.NDArray[np.generic]:
     if kind == "npy":
         return np.asarray(np.load(content, allow_pickle=False))
     stored = tifffile.imread(content) if kind == "tiff" else np.asarray(Image.open(content))
-    return stored if kind == "display" else stored * np.float64(entry["scale"])
+    return stored if np.dtype(entry["dtype"]).kind == "u" else stored * np.float64(entry["scale"])

@@ -1,8 +1,8 @@
 """Sequences of frames on disk that survive being cut off, and are the same whatever draws them side by side.
 
-A sequence is a list of frames, each a sensor at a moment behind a camera. It is drawn in blocks of BLOCK consecutive
-frames of one sensor; a block begins with the frames before it that its detector still remembers, drawn and not written,
-so that no frame depends on where the work was cut. A frame that lies complete in the folder, with the same inputs, is
+A sequence is a list of frames, each a sensor at a moment behind a camera. It is drawn in blocks of consecutive
+frames of one sensor; a block begins with the frames before it that still show in it, drawn and not written, so that
+no frame depends on where the work was cut. A frame that lies complete in the folder, with the same inputs, is
 not written again.
 """
 
@@ -16,9 +16,10 @@ from sensorsim.frames.capture import request_settings, take_frame
 from sensorsim.frames.reader import read_sidecar
 from sensorsim.frames.writer import inputs_sha256, write_frame
 from sensorsim.render import Camera, Renderer
-from sensorsim.sensor import DisplaySettings, Sensor, renewed_share
+from sensorsim.sensor import MEMORY, DisplaySettings, Sensor, follows_in_time, renewed_share
 
-BLOCK = 32  # frames
+BLOCK = 32  # frames, at least
+PER_LEAD = 4  # times as many frames in a block as are drawn ahead of it
 FORGOTTEN = 1e-4  # share of a picture that no longer matters
 
 
@@ -42,9 +43,11 @@ class SequenceOptions:
     display: DisplaySettings | None = None
 
 
-def blocks(count: int) -> list[range]:
-    """Numbers of frames that are drawn together."""
-    return [range(begin, min(begin + BLOCK, count)) for begin in range(0, count, BLOCK)]
+def sequence_blocks(sensor: Sensor, shots: Sequence[Shot]) -> list[range]:
+    """Numbers of frames that are drawn together, so many that what is drawn ahead of them is a small part."""
+    ahead = max((warm_up(sensor, shots, number) for number in range(0, len(shots), BLOCK)), default=0)
+    size = max(BLOCK, PER_LEAD * ahead)
+    return [range(begin, min(begin + size, len(shots))) for begin in range(0, len(shots), size)]
 
 
 def frame_path(options: SequenceOptions, sensor: Sensor, number: int) -> Path:
@@ -52,16 +55,32 @@ def frame_path(options: SequenceOptions, sensor: Sensor, number: int) -> Path:
     return options.folder / f"{sensor.name}_{number:06d}{options.suffix}"
 
 
-def warm_up(sensor: Sensor) -> int:
-    """Frames that a detector remembers."""
-    share = renewed_share(sensor)
-    return 0 if share >= 1.0 else math.ceil(math.log(FORGOTTEN) / math.log(1.0 - share))
+def warm_up(sensor: Sensor, shots: Sequence[Shot], number: int, display: DisplaySettings | None = None) -> int:
+    """Frames before one of that number that show in it: by what the detector remembers, by fields, by a slow gain."""
+    share, settle = renewed_share(sensor), (sensor.display if display is None else display).settle
+    memory = 0 if share >= 1.0 else math.ceil(math.log(FORGOTTEN) / math.log(1.0 - share))
+    memory += sensor.scan.interlace - 1 if sensor.detector is not None else 0
+    first = number
+    if settle > 0.0:
+        while first > 0 and _age(sensor, shots[first - 1], shots[number]) <= MEMORY * settle:
+            first -= 1
+    for earlier in range(first - 1, max(first - memory, 0) - 1, -1):
+        if not follows_in_time(sensor, shots[earlier].time_of_day, shots[earlier + 1].time_of_day):
+            break
+        first = earlier
+    return number - first
+
+
+def _age(sensor: Sensor, shot: Shot, later: Shot) -> float:
+    """Time [s] between two shots, of which each takes a frame's at least."""
+    periods = (later.number - shot.number) / sensor.scan.frame_rate
+    return max(abs(later.time_of_day - shot.time_of_day), periods)
 
 
 def draw_block(renderer: Renderer, shots: Sequence[Shot], numbers: range, options: SequenceOptions) -> int:
     """Draw the frames of a block and write those that are missing; returns how many these were."""
     missing = [number for number in numbers if not _is_complete(renderer, shots[number], options)]
-    for shot in _needed(renderer.sensor, shots, missing, numbers):
+    for shot in _needed(renderer.sensor, shots, missing, numbers, options.display):
         frame = take_frame(
             renderer, shot.camera, shot.time_of_day, display=options.display, frame=shot.number,
             fit_error="fit_error" in options.planes,
@@ -73,13 +92,15 @@ def draw_block(renderer: Renderer, shots: Sequence[Shot], numbers: range, option
     return len(missing)
 
 
-def _needed(sensor: Sensor, shots: Sequence[Shot], missing: Sequence[int], numbers: range) -> Iterator[Shot]:
-    """Missing frames, and of a detector that remembers all of the block up to the last and those before it."""
+def _needed(
+    sensor: Sensor, shots: Sequence[Shot], missing: Sequence[int], numbers: range, display: DisplaySettings | None
+) -> Iterator[Shot]:
+    """Missing frames; where frames show in later ones, all of the block up to the last and those before it."""
     if not missing:
         return
-    memory = warm_up(sensor)
-    first = max(0, numbers.start - memory) if memory else missing[0]
-    for number in range(first, missing[-1] + 1) if memory else missing:
+    alone = not any(warm_up(sensor, shots, number, display) for number in numbers)
+    first = numbers.start - warm_up(sensor, shots, numbers.start, display)
+    for number in missing if alone else range(first, missing[-1] + 1):
         yield shots[number]
 
 

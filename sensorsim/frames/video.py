@@ -1,7 +1,6 @@
 """Pictures joined to a video: GIF with what the core has, MP4 through PyAV (extra `video`)."""
 
 import math
-import secrets
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import imageio.v3 as imageio
 import numpy as np
 
 from sensorsim.errors import InputError
+from sensorsim.files import placed_whole
 
 VIDEO_SUFFIXES = ("gif", "mp4")
 
@@ -23,19 +23,16 @@ def write_video(pictures: Sequence[Path], target: Path, rate: float) -> None:
         raise InputError(target, "video", kind, "unknown", f"use {' or '.join(VIDEO_SUFFIXES)}")
     if not (math.isfinite(rate) and 0.0 < rate <= 1000.0):
         raise InputError(target, "rate", rate, "not above 0 and up to 1000 per second", "give pictures per second")
-    partial = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial.{kind}")
     try:
-        if kind == "gif":
-            imageio.imwrite(partial, [imageio.imread(path) for path in pictures], duration=1000.0 / rate, loop=0)
-        else:
-            _write_mp4(pictures, partial, rate)
-        partial.replace(target)
+        with placed_whole(target) as (partial,):
+            if kind == "gif":
+                imageio.imwrite(partial, [imageio.imread(path) for path in pictures], duration=1000.0 / rate, loop=0)
+            else:
+                _write_mp4(pictures, partial, rate)
     except ImportError as error:
         raise InputError(
             target, "video", "mp4", "PyAV is missing", "pip install 'sensorsim[video]', or use gif"
         ) from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _write_mp4(pictures: Sequence[Path], target: Path, rate: float) -> None:

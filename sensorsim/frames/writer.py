@@ -6,7 +6,6 @@ one of them is complete; the JSON sidecar comes last, so that where it stands, t
 
 import hashlib
 import json
-import secrets
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from sensorsim.errors import InputError, NumericsError
+from sensorsim.files import placed_whole
 from sensorsim.frames import encode
 from sensorsim.frames.frame import JSON, Frame, Plane, build_frame
 
@@ -26,7 +26,8 @@ def write_frame(frame: Frame, path: Path | str, *, planes: Sequence[str] = (), p
     """Writes a frame and returns its files, the one named `path` first and the sidecar `<stem>.json` last.
 
     path `.png`: the display image, 8 bit; `planes` beside it in `plane_format`: 'exr' (all in `<stem>.exr`, float32),
-    'npy' (`<stem>.<plane>_<unit>.npy`), 'png' or 'tiff' (temperatures only, `<stem>.<plane>_centikelvin.png`, 16 bit).
+    'npy' (`<stem>.<plane>_<unit>.npy`), 'png' or 'tiff' (16 bit, temperatures as `<stem>.<plane>_centikelvin.png`,
+    counts as `<stem>.counts.png`).
     path `.exr`: the planes, no display; `.npy`, `.tif`, `.tiff`: the one plane. Files of the same names are replaced.
 
     Raises InputError for a path, plane or format that cannot be honoured or a disk that refuses, NumericsError
@@ -116,12 +117,12 @@ def _plan_beside(
         add("exr", target.with_suffix(".exr"), chosen)
     elif plane_format == "npy":
         for plane in chosen:
-            unit = "" if plane.unit == "1" else "_" + plane.unit.replace(" ", "_")
+            unit = "" if plane.unit in ("1", "count") else "_" + plane.unit.replace(" ", "_")
             add("npy", target.with_name(f"{target.stem}.{plane.name}{unit}.npy"), [plane])
     elif plane_format in ("png", "tiff"):
         for plane in chosen:
-            name = f"{target.stem}.{plane.name}_centikelvin.{plane_format}"
-            add(plane_format, target.with_name(name), [plane])
+            unit = "" if plane.unit == "count" else "_centikelvin"
+            add(plane_format, target.with_name(f"{target.stem}.{plane.name}{unit}.{plane_format}"), [plane])
 
 
 def _encoder(kind: str, planes: Sequence[Plane], inputs: str) -> Write:
@@ -134,9 +135,9 @@ def _encoder(kind: str, planes: Sequence[Plane], inputs: str) -> Write:
     elif kind == "npy":
         content = encode.npy_bytes(plane)
     elif kind == "png":
-        content = encode.centikelvin_png_bytes(plane, inputs)
+        content = encode.png16_bytes(plane, inputs)
     else:
-        content = encode.centikelvin_tiff_bytes(plane, inputs)
+        content = encode.tiff16_bytes(plane, inputs)
     return lambda path: path.write_bytes(content)
 
 
@@ -146,9 +147,10 @@ def _entry(kind: str, path: Path, plane: Plane) -> dict[str, Any]:
     return {
         "name": plane.name,
         "unit": plane.unit,
-        "scale": encode.CENTIKELVIN if kind in ("png", "tiff") else 1.0,
+        "scale": encode.scale16(plane) if kind in ("png", "tiff") else 1.0,
         "description": plane.description,
         "no_surface": plane.no_surface,
+        "bits": plane.bits,
         "file": path.name,
         "format": kind,
         "shape": list(plane.data.shape),
@@ -162,22 +164,13 @@ def _write_all(
     files: Mapping[Path, Write], sidecar: Path, describe: Callable[[Mapping[Path, str]], bytes]
 ) -> list[Path]:
     """Writes all files and the sidecar that describes them, given the SHA-256 of each, or none of them."""
-    mark = f".{secrets.token_hex(4)}.partial"
-    temporary = {path: path.with_name(f".{path.name}{mark}") for path in (*files, sidecar)}
-    placed: list[Path] = []
     try:
-        for path, write in files.items():
-            write(temporary[path])
-        digests = {path: hashlib.sha256(temporary[path].read_bytes()).hexdigest() for path in files}
-        temporary[sidecar].write_bytes(describe(digests))
-        for path, written in temporary.items():
-            written.replace(path)
-            placed.append(path)
-    except BaseException as error:
-        for path in (*temporary.values(), *placed):
-            path.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            remedy = "check the folder's permissions and free space"
-            raise InputError(sidecar.parent, "file", str(error.filename), str(error.strerror), remedy) from error
-        raise
-    return placed
+        with placed_whole(*files, sidecar) as (*written, described):
+            for path, write in zip(written, files.values(), strict=True):
+                write(path)
+            digests = (hashlib.sha256(path.read_bytes()).hexdigest() for path in written)
+            described.write_bytes(describe(dict(zip(files, digests, strict=True))))
+    except OSError as error:
+        remedy = "check the folder's permissions and free space"
+        raise InputError(sidecar.parent, "file", str(error.filename), str(error.strerror), remedy) from error
+    return [*files, sidecar]

@@ -7,6 +7,7 @@ mat4 only: their elements are multiples of 16 bytes, so no driver and no reader 
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -95,19 +96,7 @@ class UniformBlock:
     @property
     def dtype(self) -> np.dtype[np.void]:
         """The block in memory, padding included; its itemsize is the size of the GL block [byte]."""
-        offsets, end = [], 0
-        for field in self.fields:
-            kind = _TYPES[field.type]
-            offsets.append(-(-end // kind.alignment) * kind.alignment)
-            end = offsets[-1] + kind.size * (field.count or 1)
-        return np.dtype(
-            {
-                "names": [field.name for field in self.fields],
-                "formats": [(_TYPES[field.type].base, field.shape) for field in self.fields],
-                "offsets": offsets,
-                "itemsize": -(-end // 16) * 16,
-            }
-        )
+        return _layout(self.fields)
 
     def glsl(self) -> str:
         """Declaration for `generated/<include_name>.glsl`. GL 3.3 sets the binding from Python, not in the text."""
@@ -146,7 +135,24 @@ class UniformBlock:
         if value.dtype.kind not in ("iuf" if base.kind == "f" else "iu"):
             raise GraphicsError(f"{where} is of type {value.dtype}, expected {base.name}")
         limits = np.finfo(np.float32) if base.kind == "f" else np.iinfo(base)
-        # Written so that NaN, which compares as false, is refused as well.
-        if not np.all((value >= limits.min) & (value <= limits.max)):
+        # Written so that NaN, which is least and greatest and compares as false, is refused as well.
+        if not (value.min() >= limits.min and value.max() <= limits.max):
             raise GraphicsError(f"{where} = {value.tolist()} is not finite or does not fit {base.name}")
         return value
+
+
+@cache
+def _layout(fields: tuple[Field, ...]) -> np.dtype[np.void]:
+    offsets, end = [], 0
+    for field in fields:
+        kind = _TYPES[field.type]
+        offsets.append(-(-end // kind.alignment) * kind.alignment)
+        end = offsets[-1] + kind.size * (field.count or 1)
+    return np.dtype(
+        {
+            "names": [field.name for field in fields],
+            "formats": [(_TYPES[field.type].base, field.shape) for field in fields],
+            "offsets": offsets,
+            "itemsize": -(-end // 16) * 16,
+        }
+    )

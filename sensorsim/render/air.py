@@ -84,5 +84,7 @@ def air_values(air: AirPath, camera_height: float, sun_direction: FloatArray) ->
         "source_slope": slope,
         "beam_source": air.beam_source,
     }
-    padded = {name: np.pad(values, (0, MOST_TERMS - values.size)) for name, values in terms.items()}
-    return {**padded, "sun_direction": sun_direction, "asymmetry": air.asymmetry}
+    rows = np.zeros((len(terms), MOST_TERMS))
+    for row, values in zip(rows, terms.values(), strict=True):
+        row[: values.size] = values
+    return {**dict(zip(terms, rows, strict=True)), "sun_direction": sun_direction, "asymmetry": air.asymmetry}

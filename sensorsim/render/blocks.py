@@ -1,6 +1,10 @@
 """The shaders' parameters, each block defined once: layout, GLSL text and meaning."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from sensorsim.gpu import Field, UniformBlock
+from sensorsim.render.camera import Camera, clip_distances
 
 VIEW_FRAME = UniformBlock(
     name="ViewFrame",
@@ -48,6 +52,7 @@ DISPLAY = UniformBlock(
         Field("level", "float", "radiance of middle grey [W m-2 sr-1]"),
         Field("span", "float", "radiance from black to white [W m-2 sr-1]"),
         Field("black_hot", "float", "1 for black-hot polarity, 0 for white-hot"),
+        Field("detail", "float", "gain of what differs from a smooth base"),
     ),
 )
 
@@ -64,9 +69,22 @@ DETECTION = UniformBlock(
         Field("renewed", "float", "share of a picture that is new one frame later"),
         Field("kept", "float", "share of a channel's level that is left a block later"),
         Field("level", "float", "radiance that stands for a channel's level [W m-2 sr-1]"),
+        Field("blooming", "float", "share of the charge above full that spills along the column"),
         Field("halo_share", "float", "of the light above full that comes back as a halo"),
         Field("halo_radius", "float", "of the halo [blocks]"),
         Field("frame", "uint", "number of the frame"),
         Field("seed", "uint", "of the noise that differs from element to element"),
     ),
 )
+
+
+def view_frame(
+    camera: Camera, size: tuple[int, int], lowest: NDArray[np.float64], highest: NDArray[np.float64]
+) -> bytes:
+    """What `VIEW_FRAME` holds for a picture of a scene within the box `lowest` to `highest` (3,) [m]."""
+    near, far = clip_distances(camera, size, lowest, highest)
+    corner, right, up = camera.view_rays(size)
+    return VIEW_FRAME.pack(
+        clip_from_camera=camera.clip_from_camera(size, near, far), camera_position=camera.position, view_corner=corner,
+        view_right=right, view_up=up,
+    )  # fmt: skip

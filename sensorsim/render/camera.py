@@ -5,6 +5,7 @@ its origin at the sensor and the world's axes (east, north, up), so that single 
 far from the scene's origin.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,17 +41,17 @@ class Camera:
 
     def axes(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Unit vectors forward, right and up of the picture."""
-        yaw, pitch, roll = np.radians([self.yaw, self.pitch, self.roll])
-        forward = np.array([np.sin(yaw) * np.cos(pitch), np.cos(yaw) * np.cos(pitch), np.sin(pitch)])
-        level = np.array([np.cos(yaw), -np.sin(yaw), 0.0])
-        upright = np.cross(level, forward)
-        right = np.cos(roll) * level - np.sin(roll) * upright
-        return forward, right, np.cross(right, forward)
+        yaw, pitch, roll = (math.radians(angle) for angle in (self.yaw, self.pitch, self.roll))
+        sy, cy, sp, cp, sr, cr = (f(angle) for angle in (yaw, pitch, roll) for f in (math.sin, math.cos))
+        forward = np.array([sy * cp, cy * cp, sp])
+        level, upright = np.array([cy, -sy, 0.0]), np.array([-sy * sp, -cy * sp, cp])
+        return forward, cr * level - sr * upright, sr * level + cr * upright
 
     def clip_from_camera(self, size: tuple[int, int], near: float, far: float) -> FloatArray:
         """Perspective projection (4, 4) of a picture of `size` (width, height), clip planes at `near` and `far` [m]."""
-        forward, _, up = self.axes()
-        eye_from_camera = matrix44.create_look_at(np.zeros(3), forward, up, dtype=np.float64).T
+        forward, right, up = self.axes()
+        eye_from_camera = np.eye(4)
+        eye_from_camera[:3, :3] = right, up, -forward
         half_width, half_height = self.half_extent(size)
         projection = matrix44.create_perspective_projection_from_bounds(
             -half_width * near, half_width * near, -half_height * near, half_height * near, near, far, dtype=np.float64

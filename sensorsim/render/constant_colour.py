@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.gpu import create_context, mesh_buffers, render_target
-from sensorsim.render.blocks import VIEW_FRAME
-from sensorsim.render.camera import Camera, clip_distances
+from sensorsim.render.blocks import VIEW_FRAME, view_frame
+from sensorsim.render.camera import Camera
 from sensorsim.render.passes import Pass
 from sensorsim.scene import Mesh
 
@@ -33,14 +33,8 @@ class ConstantColour:
 
     def render(self, camera: Camera) -> NDArray[np.uint8]:
         """Colours (height, width, 4) from the lowest row up, valid until the next call."""
-        near, far = clip_distances(camera, self.size, *self.box)
-        corner, right, up = camera.view_rays(self.size)
-        view = VIEW_FRAME.pack(
-            clip_from_camera=camera.clip_from_camera(self.size, near, far), camera_position=camera.position,
-            view_corner=corner, view_right=right, view_up=up,
-        )  # fmt: skip
         with self.ctx:
-            self.block.write(view)
+            self.block.write(view_frame(camera, self.size, *self.box))
             self.block.bind_to_uniform_block(VIEW_FRAME.binding)
             self.target.use()
             self.target.clear()

@@ -29,6 +29,7 @@ class DetailRule:
     pixels: float = 1.0  # that the error of a level may cover
     band: float = 0.2  # share of it by which a coarser level must be better before it is taken
     resolutions: Sequence[float] = RESOLUTIONS  # [m] of the levels, from coarse to fine
+    steady: bool = False  # whether the last picture's choice holds within the band: a picture then depends on it
 
     def __post_init__(self) -> None:
         """Refuse what cannot be."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -36,7 +37,7 @@ from sensorsim.render.surface_table import surface_codes
 from sensorsim.render.survey import Survey, tolerance_of
 from sensorsim.render.world import World
 from sensorsim.scene import Scene
-from sensorsim.sensor import Sensor, sensitivity, sensor_parts
+from sensorsim.sensor import Sensitivity, Sensor, sensitivity, sensor_parts
 from sensorsim.tables import surface_temperature
 from sensorsim.tables.assign import Assignment
 from sensorsim.thermal import ground_temperature
@@ -82,7 +83,7 @@ def frame_ledger(
         mirrored = decided.choice.asked("reflected_sky") is not False
         rows = decide(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
-            tolerance=tolerance_of(sensor), unit="K", spent=decided.ledger.spent,
+            tolerance=_noise_of(sensor)[0], unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
     return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table, illumination)))
 
@@ -91,8 +92,8 @@ def _chain_rows(
     choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None, illumination: Illumination
 ) -> tuple[LedgerRow, ...]:
     """Rows of the parts of a sensor's chain; none for an ideal sensor."""
-    parts = sensor_parts(sensor)
-    if not parts:
+    parts, (_, state) = sensor_parts(sensor), _noise_of(sensor)
+    if state is None:
         return ()
     if table is None:
         glow = illumination.glow
@@ -101,10 +102,15 @@ def _chain_rows(
         brightest += 0.0 if glow is None else float(glow.gradation.max() * glow.indicatrix.max())
     else:
         brightest = float(table.radiance[-1])  # a frame beyond is refused
-    state = sensitivity(sensor)
     bounds = sensor_bounds(parts, state, brightest=brightest, pixels=look.pixels)
     effects = tuple(effect for effect in EFFECTS if effect.name in parts)
     return decide(effects, bounds, choice, tolerance=signal_tolerance(state), unit="W m-2 sr-1")
+
+
+@lru_cache(maxsize=16)
+def _noise_of(sensor: Sensor) -> tuple[float, Sensitivity | None]:
+    """Tolerance [K] and sensitivity of a sensor, which ask for integrals over its band: None of an ideal one."""
+    return tolerance_of(sensor), None if sensor.detector is None else sensitivity(sensor)
 
 
 def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:
@@ -166,11 +172,21 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
 
 def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:
     """Those of the surfaces that mirror."""
-    codes, matt = surface_codes(assignment)[surface], assignment.emissivity[surface]
-    record, rise = gloss_records(codes, matt), rise_table()
+    glossy, whole = _all_mirrors(assignment)
+    kept = np.zeros(glossy.size, dtype=np.bool_)
+    kept[surface] = True
+    kept = kept[glossy]
+    return Mirrors(matt=whole.matt[kept], least=whole.least[kept], greatest=whole.greatest[kept])
+
+
+@lru_cache(maxsize=8)
+def _all_mirrors(assignment: Assignment) -> tuple[NDArray[np.bool_], Mirrors]:
+    """Which surfaces (s,) of a scene mirror, and those; the same in each of its frames."""
+    matt = assignment.emissivity
+    record, rise = gloss_records(surface_codes(assignment), matt), rise_table()
     glossy = record[:, 0] >= 0.0
     kind, along_normal = record[glossy, 0].astype(np.int64), record[glossy, 1]
-    return Mirrors(
+    return glossy, Mirrors(
         matt=matt[glossy],
         least=along_normal * (1.0 - rise.max(axis=1)[kind]),
         greatest=along_normal * (1.0 - rise.min(axis=1)[kind]),

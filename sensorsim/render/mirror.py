@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from sensorsim.materials.gloss import ANGLE_ENTRIES, load_gloss
 
@@ -52,10 +53,10 @@ def mirror_table(sky: FloatArray, ground_radiance: float) -> FloatArray:
 
 
 @cache
-def _lobe(spread: float) -> FloatArray:
+def _lobe(spread: float) -> csr_array:
     """Shares (MIRROR_ENTRIES, MIRROR_ENTRIES) that a lobe around each mirror direction has in each elevation."""
     if spread == 0.0:
-        return np.eye(MIRROR_ENTRIES)
+        return csr_array(np.eye(MIRROR_ENTRIES))
     middle = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)[:, None, None]
     off = np.radians(min(_FARTHEST * spread, 90.0)) * (np.arange(_RINGS) + 0.5) / _RINGS
     around = np.pi * (np.arange(_SECTORS) + 0.5) / _SECTORS
@@ -68,4 +69,4 @@ def _lobe(spread: float) -> FloatArray:
     share = np.zeros((MIRROR_ENTRIES, MIRROR_ENTRIES))
     np.add.at(share, (row, low), weight * (1.0 - (place - low)))
     np.add.at(share, (row, low + 1), weight * (place - low))
-    return share
+    return csr_array(share)

@@ -45,7 +45,7 @@ class MomentTables:
         }
         self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
         lobes = world.tables.lobes
-        self.most = 0 if lobes is None else self.textures["lobe_table"].width - 1  # of them at any time
+        self.most = 0 if lobes is None else self.textures["lobe_table"].width - 2  # of them at any time
         self.block = ctx.buffer(reserve=ILLUMINATION.dtype.itemsize)
         self.generated = {
             "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),

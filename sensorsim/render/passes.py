@@ -29,7 +29,9 @@ TEXTURE_UNITS = {
     "block_picture": 14,
     "baseline_picture": 15,
     "halo_picture": 14,
-    "settled_table": 13,
+    "reported_picture": 13,
+    "means_picture": 13,
+    "raster_table": 14,
     "sky_gradation_table": 16,  # units of one stage end at 15, those of a program later
     "sky_indicatrix_table": 17,
     "rise_table": 18,
@@ -95,7 +97,7 @@ def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
         samplers=("sky_radiance_table", *glow),
         generated=generated,
-        defines={"MARKED": 0, "HORIZON": 0, **defines},
+        defines=defines,
     )
 
 

@@ -1,6 +1,7 @@
 """How far away what a camera sees can be, at most: from the mesh and the picture's edges, with nothing drawn."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,7 @@ from sensorsim.render.camera import Camera
 from sensorsim.scene.mesh import Mesh
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.integer[Any]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -27,21 +29,31 @@ def in_view(camera: Camera, size: tuple[int, int], mesh: Mesh) -> InView:
     corner counts. Looking down all over the picture, no ray goes farther than to the scene's lowest level.
     """
     offset = mesh.position - camera.position
-    forward, right, up = camera.axes()
-    width, height = camera.half_extent(size)
-    ahead = offset @ forward
-    beyond = np.stack(
-        [sign * (offset @ axis) > half * ahead for axis, half in ((right, width), (up, height)) for sign in (-1.0, 1.0)]
-    )
-    seen = mesh.triangle[~np.any(np.all(beyond[:, mesh.triangle], axis=2), axis=0)]
-    if seen.size == 0:
+    corner = np.zeros(offset.shape[0], dtype=np.bool_)
+    corner[_seen(camera, size, offset, mesh.triangle)] = True
+    if not np.any(corner):
         return InView(surface=np.zeros(0, dtype=np.int64), heights=(0.0, 0.0), longest_range=0.0)
-    level, farthest = mesh.position[seen, 2], float(np.linalg.norm(offset[seen], axis=-1).max())
+    level = mesh.position[corner, 2]
+    farthest = float(np.sqrt(np.max(np.einsum("ij,ij->i", offset[corner], offset[corner]))))
     return InView(
-        surface=np.unique(mesh.surface[seen]).astype(np.int64),
+        surface=np.flatnonzero(np.bincount(mesh.surface[corner])),
         heights=(float(level.min()), float(level.max())),
         longest_range=min(farthest, _descent(camera, size, float(camera.position[2] - mesh.position[:, 2].min()))),
     )
+
+
+def _seen(camera: Camera, size: tuple[int, int], offset: FloatArray, triangle: IntArray) -> IntArray:
+    """Triangles (s, 3) of which not all corners, `offset` (v, 3) from the camera, lie beyond one edge."""
+    forward, right, up = camera.axes()
+    width, height = camera.half_extent(size)
+    ahead = offset @ forward
+    edges = np.zeros(ahead.size, dtype=np.uint8)  # one bit for each edge that a corner lies beyond
+    for bit, (axis, half) in enumerate(((right, width), (up, height))):
+        place = offset @ axis
+        edges |= (place > half * ahead).view(np.uint8) << 2 * bit
+        edges |= (-place > half * ahead).view(np.uint8) << 2 * bit + 1
+    shared = edges[triangle[:, 0]] & edges[triangle[:, 1]] & edges[triangle[:, 2]]
+    return np.asarray(triangle[shared == 0])
 
 
 def ground_range(camera: Camera, size: tuple[int, int]) -> float:

@@ -1,4 +1,5 @@
-"""From the drawn picture to what the detector reports: blur, memory, streaks, halo, noise and counts.
+"""From the drawn picture to what the sensor puts out: blur, memory, blooming, streaks, halo, noise and counts, what
+stands for dead elements, and the lines of its raster.
 
 Each step is a pass of its own and is left out where the sensor does not have it.
 """
@@ -13,6 +14,7 @@ from sensorsim.render.blocks import DETECTION
 from sensorsim.render.passes import TEXTURE_UNITS, Pass, screen_pass
 from sensorsim.sensor import (
     HALO_BLOCK,
+    REACH,
     STREAK_BLOCK,
     Sensitivity,
     Sensor,
@@ -23,9 +25,11 @@ from sensorsim.sensor import (
     fixed_pattern,
     frame_noise,
     halo_radius,
+    is_plain,
     kept_per_block,
     renewed_share,
     sensitivity,
+    source_rows,
     stream_seed,
 )
 
@@ -42,9 +46,13 @@ class SensorChain:
         self.look = sensitivity(sensor)
         self.field = 0.0  # [rad] that kernel and columns are for
         self.last_frame: int | None = None
+        self.step = self.look.step  # band radiance of a count of the last run [W m-2 sr-1]
+        self.blooms = sensor.detector is not None and sensor.detector.blooming > 0.0
         self.streaks = sensor.scan.ac_coupling > 0.0
         self.halo = sensor.intensifier is not None
         self.remembers = renewed_share(sensor) < 1.0
+        self.after = ("replaced",) * (sensor.noise.replaced and sensor.noise.dead > 0.0)
+        self.after += ("woven",) * (not is_plain(sensor.scan))
         self.block = ctx.buffer(reserve=DETECTION.dtype.itemsize)
         self.targets = self._targets()
         self.passes = self._passes()
@@ -55,6 +63,7 @@ class SensorChain:
             "row_table": float_table(ctx, "row_table", np.zeros((1, height))),
             "line_table": float_table(ctx, "line_table", np.zeros((1, width))),
             "deviate_table": float_table(ctx, "deviate_table", deviate_table()[None, :]),
+            "raster_table": float_table(ctx, "raster_table", np.zeros((1, height))),
         }
 
     def run(
@@ -67,10 +76,15 @@ class SensorChain:
         """
         self._look_through(field)
         look = self.look.stopped(exposure)
+        self.step = look.step
         self._set_frame(look, frame, level)
         self._draw("products", {"radiance_picture": picture})
         self._draw("focal_plane", {"product_picture": self._texture("products")})
         light = self._held(frame)
+        if self.blooms:
+            self._draw("columns", {"focal_plane": light})
+            self._draw("bloomed", {"focal_plane": light, "block_picture": self._texture("columns")})
+            light = self._texture("bloomed")
         more: dict[str, moderngl.Texture] = {}
         if self.streaks:
             self._draw("row_blocks", {"focal_plane": light})
@@ -81,8 +95,24 @@ class SensorChain:
             self._draw("halo", {"block_picture": self._texture("square_blocks")})
             more["halo_picture"] = self._texture("halo")
         self._draw("reported", {"focal_plane": light, **more})
+        for name, before in zip(self.after, ("reported", *self.after), strict=False):
+            self._draw(name, {"reported_picture": self._texture(before)})
         self.last_frame = frame
-        return self._texture("reported")
+        return self.texture
+
+    def cut(self) -> None:
+        """Forget the frame before: the next one begins anew."""
+        self.last_frame = None
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """What the sensor put out last [W m-2 sr-1]."""
+        return self._texture(self.output)
+
+    @property
+    def output(self) -> str:
+        """Name of the picture that the sensor puts out."""
+        return self.after[-1] if self.after else "reported"
 
     def read(self, name: str) -> np.ndarray:
         """A picture of the last run (height, width): products, focal_plane, reported and so on."""
@@ -92,9 +122,11 @@ class SensorChain:
         (width, height), ctx = self.size, self.ctx
         columns, squares = -(-width // STREAK_BLOCK), (-(-width // HALO_BLOCK), -(-height // HALO_BLOCK))
         kinds = {"products": ((width, height * self.samples), "RGBA32F"), "focal_plane": (self.size, "R32F")}
-        kinds["reported"] = (self.size, "R32F")
+        kinds |= dict.fromkeys(("reported", *self.after), (self.size, "R32F"))
         if self.remembers:
             kinds |= {"remembered": (self.size, "R32F"), "remembered_last": (self.size, "R32F")}
+        if self.blooms:
+            kinds |= {"columns": ((width, 1), "RG32F"), "bloomed": (self.size, "R32F")}
         if self.streaks:
             kinds |= {"row_blocks": ((columns, height), "RG32F"), "baseline": ((columns, height), "R32F")}
         if self.halo:
@@ -113,6 +145,10 @@ class SensorChain:
         }
         if self.remembers:
             passes["remembered"] = _with_block(ctx, "remember", ("focal_plane", "last_picture"))
+        if self.blooms:
+            whole = {"BLOCK_WIDTH": 1, "BLOCK_HEIGHT": self.size[1]}
+            passes["columns"] = _with_block(ctx, "block_mean", ("focal_plane",), whole)
+            passes["bloomed"] = _with_block(ctx, "bloom", ("focal_plane", "block_picture"))
         if self.streaks:
             passes["row_blocks"] = _with_block(ctx, "block_mean", ("focal_plane",), rows)
             passes["baseline"] = _with_block(ctx, "baseline", ("block_picture",))
@@ -124,6 +160,11 @@ class SensorChain:
         defines = {"STREAKS": int(self.streaks), "HALO": int(self.halo)}
         defines |= {"STREAK_BLOCK": STREAK_BLOCK, "HALO_BLOCK": HALO_BLOCK}
         passes["reported"] = _with_block(ctx, "detect", tuple(samplers), defines)
+        if "replaced" in self.after:
+            tables = ("reported_picture", "pattern_table")
+            passes["replaced"] = screen_pass(ctx, "sensor/replace.frag", tables, {"REACH": REACH})
+        if "woven" in self.after:
+            passes["woven"] = screen_pass(ctx, "sensor/raster.frag", ("reported_picture", "raster_table"))
         return passes
 
     def _texture(self, name: str) -> moderngl.Texture:
@@ -140,12 +181,15 @@ class SensorChain:
         """The light that the detector holds, with what is left of the frame before."""
         if not self.remembers:
             return self._texture("focal_plane")
-        follows = self.last_frame is not None and frame == self.last_frame + 1
-        before = self._texture("remembered" if follows else "focal_plane")
+        before = self._texture("remembered" if self._follows(frame) else "focal_plane")
         targets = self.targets
         targets["remembered"], targets["remembered_last"] = targets["remembered_last"], targets["remembered"]
         self._draw("remembered", {"focal_plane": self._texture("focal_plane"), "last_picture": before})
         return self._texture("remembered")
+
+    def _follows(self, frame: int) -> bool:
+        """Whether what the last frame has left is that of the one before."""
+        return self.last_frame is not None and frame == self.last_frame + 1
 
     def _look_through(self, field: float) -> None:
         """Kernel and columns for a horizontal field [rad]."""
@@ -168,6 +212,9 @@ class SensorChain:
         noise, sensor = frame_noise(self.sensor, self.size, frame), self.sensor
         update_table(self.tables["row_table"], noise.row[None, :])
         update_table(self.tables["line_table"], noise.line[None, :])
+        if "woven" in self.after:
+            rows = source_rows(sensor.scan, self.size[1], frame, follows=self._follows(frame))
+            update_table(self.tables["raster_table"], rows[None, :].astype(np.float64))
         self.block.write(
             DETECTION.pack(
                 constant=look.constant,
@@ -179,6 +226,7 @@ class SensorChain:
                 renewed=renewed_share(sensor),
                 kept=kept_per_block(sensor, self.field, self.size),
                 level=level,
+                blooming=0.0 if sensor.detector is None else sensor.detector.blooming,
                 halo_share=0.0 if sensor.intensifier is None else sensor.intensifier.halo_share,
                 halo_radius=halo_radius(sensor, self.field, self.size[0]),
                 frame=frame,

@@ -47,6 +47,11 @@ class Solids:
             if len(values) != len(self.triangles) or len(values) == 0 or not np.isfinite(values).all():
                 raise InputError("solids", field.name, values.shape, "not finite, or not one a triangle", "give all")
 
+    def box(self, lowest: NDArray[Any], highest: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """A box (3,), (3,) [m] widened by the solids."""
+        corners = self.triangles.reshape(-1, 3)
+        return np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
+
     def vertices(self, first: int) -> bytes:
         """Rows of the vertex buffer; ids of surfaces go on from `first`."""
         record = np.zeros((len(self.triangles), 3), dtype=_ROW)
@@ -71,10 +76,7 @@ class SolidPass:
 
     def box(self, lowest: NDArray[Any], highest: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
         """A box (3,), (3,) [m] widened by the solids."""
-        if self.solids is None:
-            return lowest, highest
-        corners = self.solids.triangles.reshape(-1, 3)
-        return np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
+        return (lowest, highest) if self.solids is None else self.solids.box(lowest, highest)
 
     def draw(self) -> None:
         """Draws into the target in use, which has a depth; nothing where there are no solids."""

@@ -3,6 +3,8 @@
 The layout stands in shaders/scene/surface_record.glsl.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +15,23 @@ from sensorsim.thermal.view_factors import quadrant_view_factors
 
 SURFACE_TEXELS = 6
 SURFACES_PER_ROW = 1024
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SurfaceRows:
+    """What the records hold of each surface, in single precision's values."""
+
+    normal: FloatArray  # (s, 3)
+    wall_type: NDArray[np.int64]  # (s,)
+    corner: NDArray[np.int64]  # (s, 3) standard orientations
+    weight: FloatArray  # (s, 3) of them
+    emissivity: FloatArray  # (s,)
+    reflectance: FloatArray  # (s,) solar
+    quarters: FloatArray  # (s, 4) view factors of the N, E, S and W quarter of the sky
+    nir_reflectance: FloatArray  # (s,)
+    gloss: NDArray[np.int64]  # (s,) kind of gloss or -1
+    normal_emissivity: FloatArray  # (s,)
 
 
 def surface_table(
@@ -37,6 +56,23 @@ def surface_table(
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
     padded[:count] = record
     return padded.reshape(rows, columns * SURFACE_TEXELS, 4)
+
+
+def surface_rows(records: NDArray[np.float32], count: int) -> SurfaceRows:
+    """Read the records of `count` surfaces."""
+    row = records.reshape(-1, SURFACE_TEXELS, 4)[:count].astype(np.float64)
+    return SurfaceRows(
+        normal=np.ascontiguousarray(row[:, 0, :3]),
+        wall_type=row[:, 0, 3].astype(np.int64),
+        corner=row[:, 1, :3].astype(np.int64),
+        weight=np.ascontiguousarray(row[:, 2, :3]),
+        emissivity=row[:, 1, 3].copy(),
+        reflectance=row[:, 2, 3].copy(),
+        quarters=np.ascontiguousarray(row[:, 3]),
+        nir_reflectance=row[:, 4, 0].copy(),
+        gloss=row[:, 5, 0].astype(np.int64),
+        normal_emissivity=row[:, 5, 1].copy(),
+    )
 
 
 def set_offsets(records: NDArray[np.float32], offset: NDArray[np.float64]) -> None:

@@ -17,11 +17,13 @@ from sensorsim.effects import (
     apparent_factor,
     applicable,
     decide,
+    film_bound,
     march_cost,
     surface_bounds,
     term_cost,
 )
 from sensorsim.environment import DEFAULT_VISIBILITY, Environment, Weather, build_environment, longest_lead_in
+from sensorsim.errors import InputError
 from sensorsim.materials import Catalogue, WallType, load_catalogue
 from sensorsim.radiometry import build_band_table
 from sensorsim.scene import Scene
@@ -74,6 +76,7 @@ def survey_scene(
     With a `sensor` bounds are in its apparent temperature, without one in surface temperature.
     """
     catalogue = load_catalogue() if catalogue is None else catalogue
+    _require_one_level(scene, settings, choice)
     mode = "emissive" if sensor is None else sensor.mode
     choice = _with_exchange(choice, settings)
     choice.require_inputs(sky=settings.sky, mode=mode, parts=None if sensor is None else sensor_parts(sensor))
@@ -86,7 +89,7 @@ def survey_scene(
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = ground_plane(catalogue, season)
-    situation = _situation(environment, scene, assignment, ground, settings)
+    situation = _held(_situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor))
     limits = situation.limits
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
     bounds = _worth(situation, limits, choice, sensor)
@@ -102,6 +105,13 @@ def survey_scene(
         ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
         limits=limits,
     )
+
+
+def _require_one_level(scene: Scene, settings: BakeSettings, choice: EffectChoice) -> None:
+    """Refuse exchange between near surfaces where all levels of detail stand together."""
+    if scene.lineage is not None and (settings.exchange or "exchange" in choice.wanted):
+        problem = "its levels stand within each other, so what is near there is not near in a picture"
+        raise InputError(scene.name, "level", scene.level, problem, "name one level, or leave exchange out")
 
 
 def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
@@ -131,6 +141,16 @@ def _situation(
         faces=scene_faces(environment, assignment, shown, settings),
         ground=ground_face(environment, ground, settings),
     )
+
+
+def _held(situation: Situation, choice: EffectChoice, tolerance: float) -> Situation:
+    """The situation with the wind's film, where neither the user nor the bounds can leave it out.
+
+    Near surfaces that see each other may be warmer than any alone: limits then go by emission.
+    """
+    kept = choice.asked("forced_convection")
+    kept = film_bound(situation).value > tolerance if kept is None else kept
+    return replace(situation, film_kept=kept and choice.asked("exchange") is not True)
 
 
 def _scope(

@@ -25,12 +25,11 @@ class Tiles:
     edge: IntArray  # (n + 1,) where runs begin and the last one ends
     lowest: NDArray[np.float64]  # (n, 3) [m]
     highest: NDArray[np.float64]  # (n, 3) [m]
-    kind: IntArray  # (n,) that the caller gave the triangles
     is_wide: NDArray[np.bool_]  # (n,)
 
 
-def build_tiles(mesh: Mesh, kind: IntArray, height: NDArray[np.float64]) -> Tiles:
-    """Tiles of a mesh, each of one `kind` (t,); `height` (t,) decides the order within one, the highest first."""
+def build_tiles(mesh: Mesh, height: NDArray[np.float64]) -> Tiles:
+    """Tiles of a mesh; `height` (t,) decides the order of triangles within one, the highest first."""
     corner = mesh.position[mesh.triangle]
     low, high = corner.min(axis=1), corner.max(axis=1)
     extent = mesh.position.max(axis=0)[:2] - mesh.position.min(axis=0)[:2]
@@ -41,15 +40,13 @@ def build_tiles(mesh: Mesh, kind: IntArray, height: NDArray[np.float64]) -> Tile
     tile = np.zeros(len(low), np.int64) if one else place[:, 1] * across + place[:, 0]
     wide = np.zeros(len(low), np.bool_) if one else np.any((high - low)[:, :2] > side, axis=1)
     tile[wide] = -1
-    order = np.lexsort((-height, tile, wide, kind))
-    key = np.stack([kind[order], tile[order]])
-    first = np.flatnonzero(np.any(np.diff(key, axis=1, prepend=-2), axis=0))
+    order = np.lexsort((-height, tile, wide))
+    first = np.flatnonzero(np.diff(tile[order], prepend=-2))
     return Tiles(
         triangle=np.ascontiguousarray(mesh.triangle[order]),
         edge=np.append(first, len(order)),
         lowest=np.minimum.reduceat(low[order], first, axis=0),
         highest=np.maximum.reduceat(high[order], first, axis=0),
-        kind=kind[order][first],
         is_wide=wide[order][first],
     )
 

@@ -6,14 +6,16 @@ from sensorsim.scene.audit import Audit, Reading, WordUse, audit_scene
 from sensorsim.scene.counts import Counts, count_features
 from sensorsim.scene.extrude import Facet, extrude
 from sensorsim.scene.features import INTERIORS, Feature, Part
-from sensorsim.scene.levels import LEVELS, RESOLUTION
-from sensorsim.scene.load import Scene, load_scene, scene_names
+from sensorsim.scene.levels import ALL_LEVELS, LEVELS, RESOLUTION
+from sensorsim.scene.lineage import Lineage, trace
+from sensorsim.scene.load import Scene, load_all_levels, load_scene, scene_names
 from sensorsim.scene.mesh import Mesh, build_mesh, triangulate
 from sensorsim.scene.place import CameraStation, SceneSite
 from sensorsim.scene.projection import LocalFrame
 from sensorsim.scene.surfaces import Surfaces, build_surfaces
 
 __all__ = [
+    "ALL_LEVELS",
     "INTERIORS",
     "LEVELS",
     "RESOLUTION",
@@ -22,6 +24,7 @@ __all__ = [
     "Counts",
     "Facet",
     "Feature",
+    "Lineage",
     "LocalFrame",
     "Mesh",
     "Part",
@@ -35,7 +38,9 @@ __all__ = [
     "build_surfaces",
     "count_features",
     "extrude",
+    "load_all_levels",
     "load_scene",
     "scene_names",
+    "trace",
     "triangulate",
 ]

@@ -1,11 +1,15 @@
 """What a scene holds, which words its materials go by and which readings were chosen: plain data for a report."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
+
+import numpy as np
 
 from sensorsim.errors import InputError
 from sensorsim.scene.counts import Counts
 from sensorsim.scene.features import Feature
+from sensorsim.scene.levels import LEVELS
+from sensorsim.scene.lineage import Lineage
 from sensorsim.scene.load import Scene
 
 
@@ -37,6 +41,19 @@ class Reading:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LevelKin:
+    """How the features of one level stand in those of the next coarser one."""
+
+    level: str
+    features: int
+    ground: int  # planes, which change level together
+    overlap: int  # solids that cover ground of a coarser one
+    near: tuple[str, ...]  # that only lie beside one of their kind: numbers
+    none: tuple[str, ...]  # that the coarser level lacks
+    childless: tuple[str, ...]  # that the next finer level lacks
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Audit:
     """The audit of one scene at one level."""
 
@@ -51,6 +68,7 @@ class Audit:
     interiors: Mapping[str, tuple[str, ...]]  # condition: numbers of features
     cameras: tuple[str, ...]
     notes: tuple[str, ...]
+    levels: tuple[LevelKin, ...] = ()  # of a scene with all its levels, from coarse to fine
 
     def to_dict(self) -> dict[str, object]:
         """The same as dictionaries, lists and plain values, ready for JSON."""
@@ -80,6 +98,7 @@ def audit_scene(scene: Scene, catalogue_codes: Mapping[int, str], word_notes: Ma
         interiors=_grouped(scene.features, lambda feature: feature.interior),
         cameras=tuple(camera.name for camera in scene.cameras),
         notes=scene.notes,
+        levels=() if scene.lineage is None else _kin(scene, scene.lineage),
     )
 
 
@@ -89,6 +108,27 @@ def _grouped(features: tuple[Feature, ...], key: Callable[[Feature], str]) -> di
     for feature in features:
         groups.setdefault(key(feature), []).append(feature.number)
     return {name: tuple(numbers) for name, numbers in groups.items()}
+
+
+def _kin(scene: Scene, lineage: Lineage) -> tuple[LevelKin, ...]:
+    def numbers(rows: Iterable[int]) -> tuple[str, ...]:
+        return tuple(scene.features[row].number for row in rows)
+
+    found, childless = [], lineage.childless()
+    for number, level in enumerate(LEVELS):
+        here = lineage.level == number
+        found.append(
+            LevelKin(
+                level=level,
+                features=int(np.sum(here)),
+                ground=int(np.sum(here & lineage.is_ground)),
+                overlap=int(np.sum(here & (lineage.kin == "overlap"))),
+                near=numbers(np.flatnonzero(here & (lineage.kin == "near"))),
+                none=numbers(np.flatnonzero(here & (lineage.kin == "none"))),
+                childless=numbers(row for row in childless if lineage.level[row] == number),
+            )
+        )
+    return tuple(found)
 
 
 def _word_uses(scene: Scene, codes: Mapping[int, str], notes: Mapping[str, str]) -> tuple[WordUse, ...]:

@@ -11,6 +11,7 @@ RESOLUTION: Mapping[str, float] = MappingProxyType(
 )  # smallest object kept [m]
 
 LEVELS: tuple[str, ...] = tuple(RESOLUTION)
+ALL_LEVELS = "auto"  # of a scene that holds all of them, to choose from while it is drawn
 
 
 def check_level(where: object, level: object) -> str:

@@ -1,6 +1,6 @@
 """A scene from a name or a file: features, surface table, mesh, counts and cameras in one frozen piece."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 
@@ -9,7 +9,8 @@ from sensorsim.resources import assets_folder
 from sensorsim.scene.counts import Counts, count_features
 from sensorsim.scene.extrude import extrude
 from sensorsim.scene.features import Feature
-from sensorsim.scene.levels import check_level
+from sensorsim.scene.levels import ALL_LEVELS, LEVELS, check_level
+from sensorsim.scene.lineage import Lineage, trace
 from sensorsim.scene.mesh import Mesh, build_mesh
 from sensorsim.scene.place import PLACE_FILE, CameraStation, SceneSite, derive_place, read_place
 from sensorsim.scene.projection import LocalFrame
@@ -19,7 +20,10 @@ from sensorsim.scene.surfaces import Surfaces, build_surfaces
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Scene:
-    """What is there, at one level of detail. Local axes: x east, y north, z up from the site's ground [m]."""
+    """What is there, at one level of detail or at all of them, with their lineage, to choose from while it is drawn.
+
+    Local axes: x east, y north, z up from the site's ground [m].
+    """
 
     name: str
     level: str
@@ -31,6 +35,7 @@ class Scene:
     cameras: tuple[CameraStation, ...]
     notes: tuple[str, ...]
     files: tuple[Path, ...]  # what was read
+    lineage: Lineage | None = None  # of the features where all levels are there
 
     @property
     def frame(self) -> LocalFrame:
@@ -66,6 +71,34 @@ def load_scene(name_or_path: str | Path, *, level: str = "IIIB") -> Scene:
     features = read_features(file, document)
     place_file = file.parent / PLACE_FILE
     site, cameras = read_place(place_file) if place_file.is_file() else derive_place(name, features)
+    files = (file, place_file) if place_file.is_file() else (file,)
+    return _built(name, level, site, cameras, features, _notes(file, document), files)
+
+
+def load_all_levels(name: str) -> Scene:
+    """A scene that comes with the package with the features of all its levels, from coarse to fine, and their lineage.
+
+    Its level is ALL_LEVELS; the numbers of its features begin with their level. InputError for an unknown name, and
+    for a file, which holds one level.
+    """
+    if name not in scene_names():
+        remedy = f"use one of {', '.join(scene_names())}, or name a level"
+        raise InputError(name, "level", ALL_LEVELS, "there is no such scene with several levels", remedy)
+    each = [load_scene(name, level=level) for level in LEVELS]
+    features = tuple(
+        replace(feature, number=f"{scene.level} {feature.number}") for scene in each for feature in scene.features
+    )
+    notes = tuple(dict.fromkeys(chain.from_iterable(scene.notes for scene in each)))
+    files = tuple(dict.fromkeys(chain.from_iterable(scene.files for scene in each)))
+    whole = _built(name, ALL_LEVELS, each[0].site, each[0].cameras, features, notes, files)
+    return replace(whole, lineage=trace([scene.features for scene in each], whole.frame))
+
+
+def _built(
+    name: str, level: str, site: SceneSite, cameras: tuple[CameraStation, ...], features: tuple[Feature, ...],
+    notes: tuple[str, ...], files: tuple[Path, ...],
+) -> Scene:  # fmt: skip
+    """The scene of these features, with their surfaces and triangles."""
     frame = LocalFrame(longitude=site.longitude, latitude=site.latitude)
     facets = [[extrude(part, frame) for part in feature.parts] for feature in features]
     return Scene(
@@ -77,8 +110,8 @@ def load_scene(name_or_path: str | Path, *, level: str = "IIIB") -> Scene:
         mesh=build_mesh(chain.from_iterable(chain.from_iterable(facets))),
         counts=count_features(features),
         cameras=cameras,
-        notes=_notes(file, document),
-        files=(file, place_file) if place_file.is_file() else (file,),
+        notes=notes,
+        files=files,
     )
 
 

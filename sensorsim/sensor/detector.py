@@ -32,6 +32,7 @@ LIMITS = {
     "saturation": (100.0, 5000.0),
     "response_time": (0.0, 10.0),
     "lag": (0.0, 0.99),
+    "blooming": (0.0, 1.0),
 }
 
 
@@ -56,6 +57,7 @@ class Detector:
     saturation: float = 0.0  # temperature of the black body that gives the highest count, where no well does [K]
     response_time: float = 0.0  # of a bolometer [s]
     lag: float = 0.0  # share of the last picture that a tube keeps [-]
+    blooming: float = 0.0  # share of the charge above a full well that spills along the column [-]
 
     def __post_init__(self) -> None:
         """Refuse what no detector can have."""

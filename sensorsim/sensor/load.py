@@ -56,7 +56,9 @@ UNITS: Mapping[str, float] = {
     "_um": 1e-6, "_mm": 1e-3, "_us": 1e-6, "_ms": 1e-3, "_urad": 1e-6, "_mrad": 1e-3, "_cm_hz": 1e-2,
 }  # fmt: skip
 _BAND_KEYS: Mapping[str, type] = {"name": str, "wavelength_um": list, "response": list}
-_DISPLAY_OPTIONS: Mapping[str, type] = {"polarity": str, "level": float, "span": float, "tone": str, "gamma": float}
+_DISPLAY_OPTIONS: Mapping[str, type] = {
+    field.name: str if field.name in ("polarity", "tone") else float for field in dataclasses.fields(DisplaySettings)
+}
 
 
 def sensor_names() -> list[str]:

@@ -5,6 +5,13 @@ import math
 from sensorsim.radiometry import FloatArray
 from sensorsim.sensor.sensor import Sensor
 
+KEPT_TOGETHER = 4.0  # frame periods, beyond which a picture is not one of the same run
+
+
+def follows_in_time(sensor: Sensor, before: float, now: float) -> bool:
+    """Whether a picture may remember one of another time of the day [s]: both within a few frames of the sensor."""
+    return abs(now - before) * sensor.scan.frame_rate <= KEPT_TOGETHER
+
 
 def renewed_share(sensor: Sensor) -> float:
     """Share [-] of a picture that is new one frame later: 1 - exp(-dt / tau) of a bolometer, 1 - lag of a tube."""

@@ -23,7 +23,8 @@ class Noise:
     th: float = 0.0  # columns that flicker
     gain: float = 0.0  # r.m.s. of what correction has left of the elements' gains [-]
     corrected_at: float = 300.0  # [K] where gains that differ do not show
-    dead: float = 0.0  # share of elements that show nothing [-]
+    dead: float = 0.0  # share of elements that do not see [-]
+    replaced: bool = False  # whether the median of their neighbours stands for them; else they show nothing
     seed: int = 1976
 
     def __post_init__(self) -> None:
@@ -31,6 +32,10 @@ class Noise:
         highest = {"gain": 0.5, "dead": 0.5, "corrected_at": 700.0}
         for field in fields(self):
             value = getattr(self, field.name)
+            if field.name == "replaced":
+                if type(value) is not bool:
+                    raise InputError("noise", "replaced", value, "neither true nor false", "give true or false")
+                continue
             if field.name == "seed":
                 if type(value) is not int or not 0 <= value < 2**32:
                     raise InputError("noise", "seed", value, "not a whole number below 2^32", "give for example 1")

@@ -25,6 +25,11 @@ def deviate_table() -> FloatArray:
     return table
 
 
+def place_rank(column: NDArray[np.integer], row: NDArray[np.integer], seed: int) -> NDArray[np.uint32]:
+    """Whole numbers at columns and rows, broadcast against each other, in a random order: few are alike."""
+    return _hash(column, row, 0, seed)
+
+
 def normal_deviate(column: NDArray[np.integer], row: NDArray[np.integer], frame: int, seed: int) -> FloatArray:
     """Deviates at columns and rows, broadcast against each other, of one frame and seed; numbers below 2^32."""
     return np.asarray(deviate_table()[_hash(column, row, frame, seed) >> _SHIFT])

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.radiometry import FloatArray, band_radiance
-from sensorsim.sensor.random_field import normal_deviate
+from sensorsim.sensor.dead_elements import seeing
+from sensorsim.sensor.random_field import normal_deviate, place_rank
 from sensorsim.sensor.sensitivity import Sensitivity
 from sensorsim.sensor.sensor import Sensor
 
@@ -40,9 +41,7 @@ def fixed_pattern(sensor: Sensor, size: tuple[int, int]) -> FloatArray:
     pattern = np.zeros((size[1], size[0], 4))
     pattern[..., 0] = noise.vh * normal_deviate(column, row, 0, stream_seed(sensor, "vh"))
     pattern[..., 1] = noise.gain * normal_deviate(column, row, 0, stream_seed(sensor, "gain"))
-    rank = normal_deviate(column, row, 0, stream_seed(sensor, "dead"))
-    edge = np.quantile(rank, noise.dead) if noise.dead > 0.0 else -np.inf
-    pattern[..., 2] = np.where(rank <= edge, 0.0, 1.0)
+    pattern[..., 2] = seeing(place_rank(column, row, stream_seed(sensor, "dead")), noise.dead)
     return pattern
 
 
@@ -50,7 +49,8 @@ def frame_noise(sensor: Sensor, size: tuple[int, int], frame: int) -> FrameNoise
     """Deviates of the rows and columns of a frame."""
     noise = sensor.noise
     column, row = np.arange(size[0], dtype=np.int64), np.arange(size[1], dtype=np.int64)
-    channel: IntArray = row % sensor.scan.channels if sensor.scan.pattern == "parallel" else row
+    shared = sensor.scan.pattern == "parallel" and sensor.scan.channels < size[1]
+    channel: IntArray = row * sensor.scan.channels // size[1] if shared else row
 
     def part(name: str, place: IntArray, moment: int) -> FloatArray:
         return float(getattr(noise, name)) * normal_deviate(place, _FIRST, moment, stream_seed(sensor, name))

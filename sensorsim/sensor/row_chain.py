@@ -9,33 +9,37 @@ import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import NumericsError
-from sensorsim.sensor import row_kernels
+from sensorsim.sensor import detail_kernels, row_kernels
+from sensorsim.sensor.bloom import bloomed
+from sensorsim.sensor.dead_elements import living_neighbours, replace_dead
+from sensorsim.sensor.detail import DETAIL_REACH, EDGE
 from sensorsim.sensor.display import DisplaySettings, window_limits
-from sensorsim.sensor.exposure import exposure_for, sampled_surfaces
+from sensorsim.sensor.exposure import exposure_for, of_surfaces, sampled_lines
 from sensorsim.sensor.focal_plane import column_places
+from sensorsim.sensor.line_noise import LineNoise
 from sensorsim.sensor.memory import renewed_share
 from sensorsim.sensor.point_spread import blur_kernel
 from sensorsim.sensor.random_field import deviate_table
-from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, frame_noise, stream_seed
+from sensorsim.sensor.raster import is_plain, source_rows, weave
+from sensorsim.sensor.read_out import correction_radiance, fixed_pattern, stream_seed
 from sensorsim.sensor.sensitivity import Sensitivity, sensitivity
 from sensorsim.sensor.sensor import Sensor
 from sensorsim.sensor.spill import (
     HALO_BLOCK,
     STREAK_BLOCK,
-    baseline,
     block_places,
     blocks_by_row,
     halo,
     halo_radius,
     kept_per_block,
 )
-from sensorsim.sensor.tone import tone_curve
 
 Single = NDArray[np.float32]
 MOST_THREADS = 8
@@ -57,74 +61,108 @@ class RowChain:
         width, height = size
         self.threads = min(threads or os.cpu_count() or 1, MOST_THREADS, height)
         self.pool = ThreadPoolExecutor(max_workers=self.threads)
-        self.light = np.zeros((height * samples, width * samples), np.float32)
-        self.marked = np.zeros(self.light.shape, np.bool_)
-        self.focus, self.signal = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.light = np.zeros((height * samples, width * samples), np.float32)  # to be filled before a run
+        self.surface = np.ones(self.light.shape, np.bool_)  # where one is seen, for the gain
+        self.focus, self.reported = np.zeros((height, width), np.float32), np.zeros((height, width), np.float32)
+        self.signal = self.reported  # with what stands for dead elements, line by line
         self.held, self.last_frame = self.focus, -1
         self.field = 0.0  # [rad] that kernel and columns are for
+        self.places = np.arange(width) * samples + samples // 2  # sample that each column looks at
         if sensor.detector is not None:
-            self.look, self.corrected_at = sensitivity(sensor), correction_radiance(sensor)
-            self.pattern = np.ascontiguousarray(np.moveaxis(fixed_pattern(sensor, size)[..., :3], 2, 0), np.float32)
-            self.deviates = deviate_table().astype(np.float32)
+            self._set_up(sensor)
+
+    def _set_up(self, sensor: Sensor) -> None:
+        """What does not change from frame to frame."""
+        width, height = self.size
+        self.look, self.corrected_at = sensitivity(sensor), correction_radiance(sensor)
+        self.pattern = np.ascontiguousarray(np.moveaxis(fixed_pattern(sensor, self.size)[..., :3], 2, 0), np.float32)
+        self.deviates = deviate_table().astype(np.float32)
+        self.noise = LineNoise(sensor, self.size, self.deviates)
+        self.streaks = np.zeros((height, -(-width // STREAK_BLOCK)), np.float32)
+        self.halos = np.zeros((height, -(-width // HALO_BLOCK)), np.float32)
+        self.spilled = np.zeros((height, width), np.float32)
+        self.woven = np.zeros((height, width), np.float32)
+        self.neighbours = living_neighbours(self.pattern[2]) if sensor.noise.replaced else ()
 
     def release(self) -> None:
         """End the threads."""
         self.pool.shutdown()
 
-    def run(self, stored: Single, field: float, frame: int) -> Single:
-        """What the sensor reports [W m-2 sr-1] of a picture over a horizontal field [rad], as frame of that number.
+    def run(self, field: float, frame: int) -> Single:
+        """What the sensor reports [W m-2 sr-1] of its `light`, over a horizontal field [rad], as frame of that number.
 
-        stored (height samples, width samples): radiance from the lowest row up, its sign set where no surface is seen.
-        Raises NumericsError for a picture that is not finite.
+        Raises NumericsError for light that is not finite.
         """
-        self._each(
-            len(stored), lambda first, last: row_kernels.split_marks(stored, first, last, self.light, self.marked)
-        )
         if not math.isfinite(float(self.light.sum())):
             raise NumericsError(f"frame of {self.sensor.name}: a pixel is not finite")
         if self.sensor.detector is None:
             self.signal[:] = self.light
             return self.signal
         self._look_through(field)
-        row, column, places = self.kernel
-        self._each(
+        (row, column, reach), places = self.kernel, self.places
+        self.each(
             self.size[1],
             lambda first, last: row_kernels.blur(
-                self.light, row, column, places, self.samples, first, last, self.focus
+                self.light, row, column, reach, places, self.samples, first, last, self.focus
             ),
         )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        light = self._spilled(self._remembered(frame), look, float(np.mean(seen, dtype=np.float64)))
-        self._report(light, look, frame)
+        light = self._remembered(frame)
+        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+            light = bloomed(light, look.full, self.sensor.detector.blooming)
+        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
+        self._put_out(frame)
         return self.signal
+
+    def cut(self) -> None:
+        """Forget the frame before: the next one begins anew."""
+        self.last_frame = -1
 
     def seen(self, picture: Single) -> Single:
         """Radiances of a picture that an automatic gain goes by."""
-        middle = slice(self.samples // 2, None, self.samples)
-        step = self.samples if picture.shape != self.size[::-1] else 1
-        here = picture[step // 2 :: step, step // 2 :: step]
-        return sampled_surfaces(here, ~self.marked[middle, middle])
+        middle, every = slice(self.samples // 2, None, self.samples), sampled_lines(self.size[::-1])
+        columns = self.places[every]
+        here = picture[middle][every][:, columns] if picture is self.light else picture[every, every]
+        return of_surfaces(here, self.surface[middle][every][:, columns])
 
-    def show(self, settings: DisplaySettings) -> NDArray[np.uint8]:
-        """Display codes (height, width) of the last report through a fixed window."""
+    def show(self, settings: DisplaySettings, curve: NDArray[np.float64] | None = None) -> NDArray[np.uint8]:
+        """Display codes (height, width) of the last report through a fixed window, by a curve if there is one."""
         low, high = window_limits(settings)
-        curve = np.zeros(0, np.float32)
-        if not settings.is_straight:
-            seen = self.seen(self.signal)
-            curve = tone_curve(settings.tone, settings.gamma, seen, low, high).astype(np.float32)
+        bent = np.zeros(0, np.float32) if curve is None else curve.astype(np.float32)
+        signal = self.signal if settings.detail == 1.0 else self._enhanced(low, high, settings.detail)
         window = np.array([0.5 * (low + high), high - low, 0.5, 1.0, 255.0], np.float32)
         black_hot, codes = settings.polarity == "black-hot", np.zeros(self.signal.shape, np.uint8)
-        self._each(
+        self.each(
             self.size[1],
-            lambda first, last: row_kernels.show(self.signal, curve, window, black_hot, first, last, codes),
+            lambda first, last: row_kernels.show(signal, bent, window, black_hot, first, last, codes),
         )
         return codes
 
-    def _each(self, rows: int, work: Callable[[int, int], Any]) -> None:
-        """Do the work on all rows, shared by the threads."""
+    def _enhanced(self, low: float, high: float, gain: float) -> Single:
+        """The last report with that gain of its detail, for a window from `low` to `high` [W m-2 sr-1]."""
+        share = (self.signal - np.float32(0.5 * (low + high))) / np.float32(high - low)
+        square, edge, more = share * share, np.array([EDGE], np.float32), np.array([(gain - 1.0) * (high - low)], "f4")
+        slope, offset, out = np.zeros_like(share), np.zeros_like(share), np.zeros_like(share)
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.fit_base(share, square, DETAIL_REACH, edge, first, last, slope, offset),
+        )
+        self.each(
+            self.size[1],
+            lambda first, last: detail_kernels.stretch_detail(
+                self.signal, share, slope, offset, DETAIL_REACH, more, first, last, out
+            ),
+        )
+        return out
+
+    def each(self, rows: int, work: Callable[[int, int], Any]) -> None:
+        """Do the work on all rows, shared by the threads; the caller's own takes the last part."""
         edges = [rows * part // self.threads for part in range(self.threads + 1)]
-        list(self.pool.map(work, edges[:-1], edges[1:]))
+        others = [self.pool.submit(work, *pair) for pair in pairwise(edges[:-1])]
+        work(*edges[-2:])
+        for other in others:
+            other.result()
 
     def _look_through(self, field: float) -> None:
         """Kernel and columns for a horizontal field [rad]."""
@@ -135,52 +173,76 @@ class RowChain:
         kernel = blur_kernel(self.sensor, sample, rows=height, field=field, energy=self.energy)
         assert kernel is not None
         places = column_places(width, self.samples, field, equal_angle=self.sensor.scan.equal_angle)
-        self.kernel = kernel.row.astype(np.float32), kernel.column.astype(np.float32), places.astype(np.int32)
+        self.places = places.astype(np.int64)  # as a turning mirror places them
+        self.kernel = row_kernels.padded(kernel.row), row_kernels.padded(kernel.column), kernel.row.shape[1] // 2
         self.field = field
 
     def _remembered(self, frame: int) -> Single:
         """The light that the detector holds, with what is left of the frame before."""
         share = renewed_share(self.sensor)
         if share < 1.0:
-            follows = frame == self.last_frame + 1 and self.last_frame >= 0
+            follows = self._follows(frame)
             self.held = self.held + np.float32(share) * (self.focus - self.held) if follows else self.focus.copy()
-            self.last_frame = frame
             return self.held
         return self.focus
 
-    def _spilled(self, light: Single, look: Sensitivity, level: float) -> Single:
-        """The light less what each channel has settled to but for a level, with the halo of bright lights."""
+    def _report(self, light: Single, look: Sensitivity, level: float, frame: int) -> None:
+        """Noise and counts of the light with streaks and halo; `level` is that of the whole picture."""
         sensor, (width, height) = self.sensor, self.size
-        if sensor.scan.ac_coupling > 0.0:
-            settled = baseline(light, kept_per_block(sensor, self.field, self.size))
-            light = self._with_blocks(light, settled, STREAK_BLOCK, level, -1.0)
+        numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
+        packed, seed = np.array(numbers, np.float32), stream_seed(sensor, "tvh")
+        row, line = self.noise.at(frame)
+        if sensor.intensifier is not None and sensor.scan.ac_coupling > 0.0:
+            self.each(height, lambda first, last: self._with_streaks(light, level, first, last))
+            light = self.spilled
         if sensor.intensifier is not None:
             radius = halo_radius(sensor, self.field, width)
             around = halo(light, look.full, sensor.intensifier.halo_share, radius)
-            light = self._with_blocks(light, blocks_by_row(around, height, HALO_BLOCK), HALO_BLOCK, 0.0, 1.0)
-        return light
+            self.halos[:] = blocks_by_row(around, height, HALO_BLOCK)
 
-    def _with_blocks(self, light: Single, rows: Any, width: int, constant: float, factor: float) -> Single:
-        """Light with a constant, and a multiple of blocks (height, blocks), spread along the rows."""
-        left, share = block_places(self.size[0], rows.shape[1], width)
-        values, part = rows.astype(np.float32), share.astype(np.float32)
-        added = np.zeros(light.shape, np.float32)
-        numbers = np.array([constant, factor], np.float32)
-        self._each(
-            self.size[1],
-            lambda first, last: row_kernels.add_blocks(light, values, left, part, numbers, first, last, added),
-        )
-        return added
+        def work(first: int, last: int) -> None:
+            seen = light
+            if sensor.intensifier is not None:
+                seen = self._with_halo(seen, first, last)
+            elif sensor.scan.ac_coupling > 0.0:
+                seen = self._with_streaks(seen, level, first, last)
+            row_kernels.report(
+                seen, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.reported
+            )
 
-    def _report(self, light: Single, look: Sensitivity, frame: int) -> None:
-        """Noise and counts."""
-        sensor = self.sensor
-        numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
-        packed, noise = np.array(numbers, np.float32), frame_noise(sensor, self.size, frame)
-        row, line, seed = noise.row.astype(np.float32), noise.line.astype(np.float32), stream_seed(sensor, "tvh")
-        self._each(
-            self.size[1],
-            lambda first, last: row_kernels.report(
-                light, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.signal
-            ),
-        )
+        self.each(height, work)
+
+    def _with_streaks(self, light: Single, level: float, first: int, last: int) -> Single:
+        """Rows of the light less what each channel has settled to, but for a level."""
+        kept = kept_per_block(self.sensor, self.field, self.size)
+        row_kernels.settled_blocks(light, STREAK_BLOCK, kept, first, last, self.streaks)
+        return self._with_blocks(light, self.streaks, STREAK_BLOCK, (level, -1.0), first, last)
+
+    def _with_halo(self, light: Single, first: int, last: int) -> Single:
+        return self._with_blocks(light, self.halos, HALO_BLOCK, (0.0, 1.0), first, last)
+
+    def _with_blocks(
+        self, light: Single, blocks: Single, width: int, numbers: tuple[float, float], first: int, last: int
+    ) -> Single:
+        """Rows of light with a constant, and a multiple of blocks (height, blocks), spread along the rows."""
+        left, share = block_places(self.size[0], blocks.shape[1], width)
+        right = np.minimum(left + 1, blocks.shape[1] - 1).astype(np.uint32)
+        row_kernels.add_blocks(
+            light, blocks, left.astype(np.uint32), right, share.astype(np.float32), np.array(numbers, np.float32),
+            first, last, self.spilled,
+        )  # fmt: skip
+        return self.spilled
+
+    def _put_out(self, frame: int) -> None:
+        """What stands for dead elements, and the lines that the frame brings."""
+        shown, scan = self.reported, self.sensor.scan
+        if self.neighbours:
+            shown = replace_dead(shown, self.neighbours)
+        if not is_plain(scan):
+            weave(self.woven, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
+            shown = self.woven
+        self.signal, self.last_frame = shown, frame
+
+    def _follows(self, frame: int) -> bool:
+        """Whether what the last frame has left is that of the one before."""
+        return frame == self.last_frame + 1 and self.last_frame >= 0

@@ -11,81 +11,129 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from sensorsim.sensor.words import folded, plus, times
+
 Array = NDArray[Any]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def split_marks(stored: Array, first: int, last: int, light: Array, marked: Array) -> None:
-    """Light (height, width) and where its sign was set, of a picture stored from its lowest row up."""
-    height, width = stored.shape
-    for y in range(first, last):
-        source, target, mark = stored[height - 1 - y], light[y], marked[y]
-        for x in range(width):
-            target[x] = abs(source[x])
-            mark[x] = source[x] < 0.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def blur(
-    picture: Array, row: Array, column: Array, places: Array, samples: int, first: int, last: int, out: Array
-) -> None:
+    picture: Array, row: Array, column: Array, reach: int, places: Array, samples: int, first: int, last: int,
+    out: Array,
+) -> None:  # fmt: skip
     """Radiance on the elements [W m-2 sr-1] of a picture (height samples, columns), by the products of a kernel.
 
-    row, column (r, n); places (width,): sample that each column looks at. The picture's edge goes on beyond it.
+    row, column (r, n): weights of n taps from `reach` samples before, as `padded` gives them; places (width,): sample
+    that each column looks at. The picture's edge goes on beyond it.
     """
-    height, width = picture.shape
-    ranks, taps = row.shape
-    reach = taps // 2
-    line, wide = np.zeros(width + 2 * reach, picture.dtype), np.zeros(width, picture.dtype)
-    middle = line[reach : reach + width]
+    (height, width), (ranks, taps) = picture.shape, row.shape
+    wide, others = np.zeros(width, picture.dtype), np.zeros(4, np.int64)
+    one, two = np.zeros(width + taps, picture.dtype), np.zeros(width + taps, picture.dtype)
     for y in range(first, last):
         top = samples * y + samples // 2 - reach
         wide[:] = 0.0
-        for rank in range(ranks):
-            middle[:] = 0.0
-            for tap in range(taps):
-                weight, source = column[rank, tap], picture[min(max(top + tap, 0), height - 1)]
-                for x in range(width):
-                    middle[x] += weight * source[x]
-            line[:reach], line[reach + width :] = line[reach], line[reach + width - 1]
-            for tap in range(taps):
-                weight, shifted = row[rank, tap], line[tap : tap + width]
-                for x in range(width):
-                    wide[x] += weight * shifted[x]
+        for rank in range(0, ranks, 2):
+            one[:], two[:] = 0.0, 0.0
+            for tap in range(0, taps, 4):
+                for near in range(4):
+                    others[near] = min(max(top + tap + near, 0), height - 1)
+                weight = column[rank : rank + 2, tap : tap + 4]
+                _across(picture, others, weight, one[reach : reach + width], two[reach : reach + width])
+            for line in (one, two):
+                line[:reach], line[reach + width :] = line[reach], line[reach + width - 1]
+            for tap in range(0, taps, 4):
+                _along(one[tap:], two[tap:], row[rank : rank + 2, tap : tap + 4], wide)
         target = out[y]
         for x in range(places.size):
             target[x] = wide[places[x]]
 
 
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+def _across(picture: Array, rows: Array, weight: Array, one: Array, two: Array) -> None:
+    """Add four rows of a picture to two lines (width,), weights (2, 4): eight products for six loads.
+
+    Arrays of one dimension without gaps, here and below: others the compiler does not turn into vectors.
+    """
+    a, b, c, d = picture[rows[0]], picture[rows[1]], picture[rows[2]], picture[rows[3]]
+    p0, p1, p2, p3 = weight[0, 0], weight[0, 1], weight[0, 2], weight[0, 3]
+    q0, q1, q2, q3 = weight[1, 0], weight[1, 1], weight[1, 2], weight[1, 3]
+    for x in range(one.size):
+        k, m, n, o = a[x], b[x], c[x], d[x]
+        one[x] += (p0 * k + p1 * m) + (p2 * n + p3 * o)
+        two[x] += (q0 * k + q1 * m) + (q2 * n + q3 * o)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+def _along(one: Array, two: Array, weight: Array, out: Array) -> None:
+    """Add to a line (width,) four neighbours in each of two lines, weights (2, 4)."""
+    width = out.size
+    a, b, c, d = one[:width], one[1 : 1 + width], one[2 : 2 + width], one[3 : 3 + width]
+    e, f, g, h = two[:width], two[1 : 1 + width], two[2 : 2 + width], two[3 : 3 + width]
+    p0, p1, p2, p3 = weight[0, 0], weight[0, 1], weight[0, 2], weight[0, 3]
+    q0, q1, q2, q3 = weight[1, 0], weight[1, 1], weight[1, 2], weight[1, 3]
+    for x in range(width):
+        first = (p0 * a[x] + p1 * b[x]) + (p2 * c[x] + p3 * d[x])
+        out[x] += first + ((q0 * e[x] + q1 * f[x]) + (q2 * g[x] + q3 * h[x]))
+
+
+def padded(weights: Array) -> NDArray[np.float32]:
+    """Weights (r, n) with zeros, so that products come in pairs and taps in fours."""
+    ranks, taps = weights.shape
+    filled = np.pad(weights, ((0, -ranks % 2), (0, -taps % 4)))
+    return np.ascontiguousarray(filled, np.float32)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc"})
+def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int, out: Array) -> None:
+    """Level (height, blocks) that each row has settled to, as `spill.baseline`: its sum from block to block.
+
+    kept: share of the level left a block of `extent` neighbours later; the sweep that ends a row begins the next.
+    """
+    width, count = light.shape[1], out.shape[1]
+    means, whole, around = np.zeros(count), 0.0, 1.0
+    for _ in range(count):
+        whole += around
+        around *= kept
+    for y in range(first, last):
+        row, level = light[y], 0.0
+        for block in range(count):
+            begin, end, total = block * extent, min((block + 1) * extent, width), 0.0
+            for x in range(begin, end):
+                total += row[x]
+            means[block] = total / (end - begin)
+            level = kept * level + means[block]
+        for block in range(count):
+            level = kept * level + (1.0 - around) * means[block]
+            out[y, block] = level / whole
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def add_blocks(
-    light: Array, rows: Array, left: Array, share: Array, numbers: Array, first: int, last: int,
+    light: Array, rows: Array, left: Array, right: Array, share: Array, numbers: Array, first: int, last: int,
     out: Array,
 ) -> None:  # fmt: skip
-    """`light` + a constant + a factor times blocks (height, blocks), straight between `left` and its neighbour."""
-    end = rows.shape[1] - 1
+    """`light` + a constant + a factor times blocks (height, blocks), straight between the `left` and the `right`."""
     constant, factor = numbers
     for y in range(first, last):
         source, blocks, target = light[y], rows[y], out[y]
         for x in range(source.size):
-            low, high = blocks[left[x]], blocks[min(left[x] + 1, end)]
-            target[x] = source[x] + constant + factor * (low + share[x] * (high - low))
+            low = blocks[left[x]]
+            target[x] = source[x] + constant + factor * (low + share[x] * (blocks[right[x]] - low))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _choices(y: int, frame: int, seed: int, out: Array) -> None:
-    """Number of the deviate of each element of a row: pcg4d of [Jarzynski2020], as in `random_field`."""
-    m, a = np.uint32(1664525), np.uint32(1013904223)
-    q, f, s = np.uint32(np.uint32(y) * m + a), np.uint32(np.uint32(frame) * m + a), np.uint32(np.uint32(seed) * m + a)
-    shift, top = np.uint32(16), np.uint32(20)
+def deviate_row(row: int, frame: int, seed: int, deviates: Array, out: Array) -> None:
+    """Deviates of the elements of a row: pcg4d of [Jarzynski2020], as in `random_field`."""
+    m, a, top = np.uint32(1664525), np.uint32(1013904223), np.uint32(20)
+    q, f = plus(times(np.uint32(row), m), a), plus(times(np.uint32(frame), m), a)
+    s = plus(times(np.uint32(seed), m), a)
+    fixed = plus(a, times(q, s))
     for place in range(out.size):
-        x, v, z, w = np.uint32(np.uint32(place) * m + a), q, f, s
-        x = np.uint32(x + np.uint32(v * w))
-        v = np.uint32(v + np.uint32(z * x))
-        z = np.uint32(z + np.uint32(x * v))
-        w = np.uint32(w + np.uint32(v * z))
-        x, v, z, w = x ^ (x >> shift), v ^ (v >> shift), z ^ (z >> shift), w ^ (w >> shift)
-        out[place] = np.uint32(x + np.uint32(np.uint32(v) * np.uint32(w))) >> top
+        x = plus(times(np.uint32(place), m), fixed)
+        v = plus(q, times(f, x))
+        z = plus(f, times(x, v))
+        w = plus(s, times(v, z))
+        out[place] = deviates[plus(folded(x), times(folded(v), folded(w))) >> top]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -101,11 +149,9 @@ def report(
     """
     constant, shot, step, highest, corrected_at = look
     none, half = look.dtype.type(0.0), look.dtype.type(0.5)
-    choice, deviate = np.zeros(line.size, np.uint32), np.zeros(line.size, light.dtype)
+    deviate = np.zeros(line.size, light.dtype)
     for y in range(first, last):
-        _choices(y, frame, seed, choice)
-        for x in range(line.size):
-            deviate[x] = deviates[choice[x]]
+        deviate_row(y, frame, seed, deviates, deviate)
         source, fixed, gain, sees = light[y], pattern[0, y], pattern[1, y], pattern[2, y]
         target, whole = out[y], row[y]
         for x in range(line.size):

@@ -13,13 +13,15 @@ Pattern = Literal["staring", "parallel", "raster"]
 class Scan:
     """Pattern and electronics; zero stands for what a pattern does not have.
 
-    staring: every element has its pixel. parallel: a column of detectors sweeps along the rows, `channels` of them,
-    and the picture's rows are theirs in turn. raster: one spot after the other, as in a tube.
+    staring: every element has its pixel. parallel: a column of detectors sweeps along the rows, `channels` of them
+    over the picture's height, again and again a line farther where there are more rows than channels. raster: one spot
+    after the other, as in a tube.
     """
 
     pattern: Pattern = "staring"
     frame_rate: float = 30.0  # [Hz]
-    interlace: int = 1  # fields of a frame
+    interlace: int = 1  # fields of a frame, which come in turn
+    lines: int = 0  # of the raster, over the whole height; 0: as many as the picture has rows
     channels: int = 0  # of a parallel scan
     efficiency: float = 1.0  # share of the time in which a scanner looks at the scene [-]
     electronics: float = 0.0  # cut-off of the amplifier [Hz]
@@ -32,18 +34,20 @@ class Scan:
             remedy = f"use one of {', '.join(get_args(Pattern))}"
             raise InputError("scan", "pattern", self.pattern, "unknown", remedy)
         checks = (
-            ("frame_rate", 0.01, 1e5), ("interlace", 1, 8), ("channels", 0, 10000), ("efficiency", 0.01, 1.0),
-            ("electronics", 0.0, 1e9), ("ac_coupling", 0.0, 1e6),
+            ("frame_rate", 0.01, 1e5), ("interlace", 1, 8), ("lines", 0, 10000), ("channels", 0, 10000),
+            ("efficiency", 0.01, 1.0), ("electronics", 0.0, 1e9), ("ac_coupling", 0.0, 1e6),
         )  # fmt: skip
         for entry, low, high in checks:
             value = getattr(self, entry)
-            whole = entry not in ("interlace", "channels") or type(value) is int
+            whole = entry not in ("interlace", "lines", "channels") or type(value) is int
             if not (math.isfinite(value) and low <= value <= high and whole):
                 raise InputError("scan", entry, value, f"not {low:g} to {high:g}", "give what the scanner has")
         if self.pattern == "parallel" and self.channels == 0:
             raise InputError("scan", "channels", 0, "none in a parallel scan", "give the number of detectors")
-        if self.pattern == "staring" and (self.channels or self.ac_coupling or self.electronics or self.equal_angle):
-            raise InputError("scan", "pattern", "staring", "has no channels or electronics of a scan", "leave them out")
+        swept = self.channels or self.lines or self.ac_coupling or self.electronics or self.equal_angle
+        if self.pattern == "staring" and swept:
+            problem = "has no channels, lines or electronics of a scan"
+            raise InputError("scan", "pattern", "staring", problem, "leave them out")
 
     def sweep_rate(self, field_of_view: float, rows: int) -> float:
         """Angle along a row per time [rad s-1] over a horizontal field [rad] of `rows`; 0 where nothing sweeps."""

@@ -59,6 +59,14 @@ class Sensor:
         self._check_field()
         if self.detector is not None and self.mode == "reflective" and self.detector.kind != "photon":
             raise InputError(where, "detector.kind", self.detector.kind, "knows heat only", "use photon")
+        if self.detector is not None and self.detector.blooming > 0.0 and self.intensifier is not None:
+            problem = "behind an intensifier, whose halo takes what is too bright"
+            raise InputError(where, "detector.blooming", self.detector.blooming, problem, "describe one of the two")
+
+    @property
+    def has_counts(self) -> bool:
+        """Whether it gives raw counts that 16 bits hold."""
+        return self.detector is not None and self.detector.bits <= 16
 
     def _check_field(self) -> None:
         """The field of view must be the detector's behind its lens, to a hundredth."""

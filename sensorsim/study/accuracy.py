@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
+from itertools import product
 
 import numpy as np
 
-from sensorsim.environment import Weather, build_environment
+from sensorsim.environment import Weather, build_environment, read_weather
 from sensorsim.materials import Catalogue, load_catalogue
 from sensorsim.render import build_world
 from sensorsim.render.survey import ground_plane
@@ -17,7 +18,7 @@ from sensorsim.study.accuracy_measure import Score, StudyDay, fitted, score_tria
 from sensorsim.study.accuracy_scope import Scope, narrow, scope_of
 from sensorsim.study.accuracy_surfaces import SEED, catalogue_sample, scene_sample
 from sensorsim.study.accuracy_trials import BASELINE, Trial, plan_trials
-from sensorsim.tables import ShadeTables, preset
+from sensorsim.tables import BakeSettings, ShadeTables, preset
 from sensorsim.tables.full_solve import SurfaceSet
 from sensorsim.tables.orientations import FloatArray
 from sensorsim.thermal import season_of
@@ -67,10 +68,10 @@ def study_accuracy(
     """Measure presets, factors and combinations over the days, all where None; see `plan_trials`."""
     trials = plan_trials(presets, factors)
     tell = _silent if progress is None else progress
-    truth = {}
-    for fine in dict.fromkeys(trial.truth for trial in trials):
-        tell(f"full solve, {fine.sky} sky", 0, len(trials))
-        truth[fine] = {day.day: solve_day(day, day.sample.surfaces, fine) for day in days}
+    truth: dict[BakeSettings, dict[date, FloatArray]] = {trial.truth: {} for trial in trials}
+    for number, (fine, day) in enumerate(product(truth, days)):
+        tell(f"full solve of {day.day}, {fine.sky} sky", number, len(truth) * len(days))
+        truth[fine][day.day] = solve_day(day, day.sample.surfaces, fine)
     timed_bake(narrow(days[0], 1)[0], preset("report"))  # so that no trial pays for compiling
     scores: list[Score] = []
     frames: dict[str, float] = {}
@@ -112,6 +113,15 @@ def scene_days(
             )
         )
     return days
+
+
+def still_moment() -> tuple[Weather, date]:
+    """The eve of the report's summer day, were it clear and without any wind: where walls answer the sun least evenly.
+
+    Insulated faces then reach 90 C, and lose heat by radiation and free convection alone.
+    """
+    weather, none = read_weather("summer"), np.zeros_like(read_weather("summer").wind_speed)
+    return replace(weather, name="still", wind_speed=none, cloud_cover=none), date(1976, 9, 2)
 
 
 def catalogue_days(catalogue: Catalogue, moments: Sequence[tuple[Weather, date]]) -> list[StudyDay]:

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from datetime import date
 
 import numpy as np
-from scipy.stats import kendalltau, spearmanr
 
 from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.render import Camera, Picture, Renderer, World, station_camera
@@ -92,6 +91,8 @@ def _compare(name: str, day: StudyDay, hour: float, picture: Picture, truth: Pic
     large = count >= FEWEST_PIXELS
     means = [np.bincount(surface[seen], weights=kelvin)[large] / count[large] for kelvin in (shown, right)]
     miss = shown - right
+    from scipy.stats import kendalltau, spearmanr  # take longer to load than most commands take to work
+
     return ImageScore(
         name=name,
         day=day.day,

@@ -10,7 +10,7 @@ from sensorsim.tables import PRESETS, BakeSettings, preset
 from sensorsim.tables.full_solve import fine_settings
 
 BASELINE = "standard"  # that one knob at a time is turned away from
-TWO, THREE, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.1, 0.3, 0.5, 0.7, 0.9)
+TWO, THREE, FOUR, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.02, 0.35, 0.8, 0.98), (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,12 +60,13 @@ FACTORS: Mapping[str, Factor] = {
     "reflectances": Factor(
         title="reflectances that are solved, the polynomial through all of them",
         values=tuple(
-            (str(len(chosen)), {"reflectances": chosen, "degree": len(chosen) - 1}) for chosen in (TWO, THREE, FIVE)
+            (str(len(chosen)), {"reflectances": chosen, "degree": len(chosen) - 1})
+            for chosen in (TWO, THREE, FOUR, FIVE)
         ),
     ),
     "degree": Factor(
         title="degree of the polynomial through five reflectances",
-        values=tuple((str(degree), {"reflectances": FIVE, "degree": degree}) for degree in (0, 1, 2, 4)),
+        values=tuple((str(degree), {"reflectances": FIVE, "degree": degree}) for degree in (0, 1, 2, 3, 4)),
     ),
     "step": Factor(
         title="step of the march [s]",
@@ -105,10 +106,11 @@ COMBINATIONS: Mapping[str, Mapping[str, Any]] = {
         ("report26", "barycentric", 0.0, THREE, 900.0),
         ("report26", "barycentric", 3600.0, TWO, 900.0),
         ("report26", "spline", 3600.0, TWO, 600.0),
-        ("octahedron38", "spline", 900.0, THREE, 300.0),
         ("icosphere42", "spline", 3600.0, TWO, 900.0),
         ("icosphere42", "spline", 1800.0, THREE, 600.0),
+        ("icosphere42", "spline", 900.0, THREE, 300.0),
         ("octahedron66", "spline", 900.0, TWO, 600.0),
+        ("octahedron66", "spline", 300.0, FOUR, 300.0),
         ("icosphere162", "barycentric", 0.0, THREE, 600.0),
         ("icosphere162", "spline", 900.0, THREE, 300.0),
     )

@@ -22,7 +22,7 @@ from sensorsim.study.bench_worlds import with_surfaces, with_triangles, with_wal
 MORNING = 36000.0  # [s]
 TIMES = (1, 2, 4)  # how many times as much
 PIXELS = ((1, 2), (1, 1), (2, 1))  # shares of the sides
-STAGES = ("moment", "draw", "read-back", "sensor", "window", "display")
+STAGES = ("moment", "draw", "read-back", "light", "sensor", "window", "display")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

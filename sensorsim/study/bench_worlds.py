@@ -39,7 +39,8 @@ def with_wall_types(world: World, times: int) -> World:
     walls = len(tables.wall_types)
     lobes = tables.lobes
     if lobes is not None:
-        lobes = replace(lobes, weight=np.concatenate([lobes.weight] * times, axis=1))
+        copies = {name: np.concatenate([getattr(lobes, name)] * times, axis=1) for name in ("weight", "gain")}
+        lobes = replace(lobes, **copies)
     more = replace(
         tables, wall_types=tables.wall_types * times, lead_in=tables.lead_in * times, lobes=lobes,
         coefficients=np.concatenate([tables.coefficients] * times, axis=1),

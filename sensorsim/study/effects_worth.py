@@ -6,24 +6,24 @@ of `gallery`; times are processor times over all cores, of bakes summed over the
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date
 
 import numpy as np
 
 from sensorsim.constants import PI
-from sensorsim.effects import EFFECTS, EffectChoice
+from sensorsim.effects import EFFECTS, EffectChoice, Ledger
 from sensorsim.environment import read_weather
 from sensorsim.render import Picture, Renderer, Survey, World, station_camera, survey_scene, world_of
 from sensorsim.scene import load_scene
 from sensorsim.sensor import load_sensor
+from sensorsim.study.effects_pairs import OF_FRAMES, SPARE
 from sensorsim.study.gallery import FIGURES
 from sensorsim.tables import BakeSettings, ShadeTables, bake_tables
 
 Progress = Callable[[str, int, int], None]
 
 SENSORS = ("flir", "lltv")
-SPARE = frozenset({"spare_orientations", "spare_reflectances"})
 BASE = EffectChoice(base="all", refused=SPARE)  # the same pictures as with them, and much sooner
 # Coarser than a frame would be baked, since only differences count, and with as many orientations as scenes show.
 STUDY = BakeSettings(
@@ -97,7 +97,7 @@ def measure_effects(
     worlds = sorted({(figure.level, day) for figure in FIGURES for day, _ in figure.moments}, reverse=True)
     for done, (level, day) in enumerate(worlds):
         place = _Place(level=level, day=day, settings=settings, size=size, backend=backend)
-        for step, worth in enumerate(_add(place, found)):
+        for step, worth in enumerate(_add(place, found, timed=done == 0)):
             if progress is not None:
                 progress(
                     f"{worth.effect}, level {level}, {day}", done * len(found) + step + 1, len(worlds) * len(found)
@@ -110,14 +110,14 @@ def image_count() -> int:
     return len({(figure.level, figure.sensor, *moment) for figure in FIGURES for moment in figure.moments})
 
 
-def _add(place: _Place, found: Sequence[EffectWorth]) -> Iterator[EffectWorth]:
-    """Add what each effect is worth at one place."""
+def _add(place: _Place, found: Sequence[EffectWorth], *, timed: bool) -> Iterator[EffectWorth]:
+    """Add what each effect is worth at one place; frames are `timed` at one, the one with most in view."""
     survey = place.survey(BASE)
     _bake(survey)  # compiled code is loaded, and memory warm
     tables, spent = _bake(survey)
     whole = {sensor: place.look(survey, tables, sensor) for sensor in SENSORS}
+    frame = {sensor: _frame_time(place, survey, tables, sensor) for sensor in SENSORS if timed}
     called = _called(place, tables)
-    bound = {row.effect: row.bound for row in survey.ledger.rows}
     for worth in found:
         name = worth.effect
         worth.called += called.get(name, 0)
@@ -125,23 +125,24 @@ def _add(place: _Place, found: Sequence[EffectWorth]) -> Iterator[EffectWorth]:
             worth.bake_ms += _bake(place.survey(EffectChoice(base="all", refused=SPARE - {name})))[1] - spent
         elif name == "temperature":
             worth.bake_ms += spent
-        elif name == "exchange":
-            pass  # an option that is not in the baseline
-        elif name not in bound or bound[name] > 0.0:  # else nothing is left out
-            without = place.survey(EffectChoice(base="all", refused=SPARE | {name}))
-            left, less = _bake(without) if name in bound else (tables, spent)
+        elif name in OF_FRAMES:
+            without = replace(survey, choice=BASE.with_refused(name))
+            for sensor in SENSORS:
+                _compare(worth, whole[sensor], place.look(without, tables, sensor))
+            for sensor, time_whole in frame.items():
+                worth.frame_ms = max(worth.frame_ms, time_whole - _frame_time(place, without, tables, sensor))
+        elif survey.ledger.row(name).on and survey.ledger.row(name).bound > 0.0:  # else nothing is left out
+            without = _left_out(survey, name)
+            left, less = _bake(without)
             worth.bake_ms += spent - less
-            for sensor in SENSORS if name not in bound else SENSORS[:1]:
-                _compare(worth, whole[sensor], place.look(without, left, sensor))
-            worth.frame_ms = max(
-                worth.frame_ms, _frame_cost(place, survey, without, tables) if name not in bound else 0.0
-            )
+            _compare(worth, whole["flir"], place.look(without, left, "flir"))
         yield worth
 
 
-def _frame_cost(place: _Place, whole: Survey, without: Survey, tables: ShadeTables) -> float:
-    """Processor time [ms] of a frame that one effect of it takes, in the sensor where that is more."""
-    return max(_frame_time(place, whole, tables, name) - _frame_time(place, without, tables, name) for name in SENSORS)
+def _left_out(survey: Survey, name: str) -> Survey:
+    """The survey with one term of the heat balance left out as well, which changes nothing else of it."""
+    rows = (replace(row, on=row.on and row.effect != name) for row in survey.ledger.rows)
+    return replace(survey, choice=survey.choice.with_refused(name), ledger=Ledger(rows=tuple(rows)))
 
 
 def _frame_time(place: _Place, survey: Survey, tables: ShadeTables, sensor: str) -> float:

@@ -3,12 +3,12 @@
 import base64
 import html
 import io
-import secrets
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from sensorsim.errors import InputError
+from sensorsim.files import placed_whole
 
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; color: #1b1f24; }
@@ -59,12 +59,10 @@ class Page:
         """The page as one file."""
         head = f'<meta charset="utf-8"><title>{html.escape(self.title)}</title><style>{STYLE}</style>'
         content = f'<!doctype html><html lang="en"><head>{head}</head><body>{"".join(self.parts)}</body></html>\n'
-        partial = path.with_name(f"{path.name}.{secrets.token_hex(4)}.partial")
         try:
-            partial.write_text(content, encoding="utf-8")
-            partial.replace(path)
+            with placed_whole(path) as (partial,):
+                partial.write_text(content, encoding="utf-8")
         except OSError as error:
-            partial.unlink(missing_ok=True)
             problem = f"the page cannot be written: {error.strerror}"
             raise InputError("study", "page", str(path), problem, "name another place") from error
 

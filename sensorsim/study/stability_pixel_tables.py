@@ -40,7 +40,7 @@ def _only(tables: ShadeTables, index: int) -> ShadeTables:
     twice = np.array([index, index])
     lobes = tables.lobes
     if lobes is not None:
-        lobes = replace(lobes, sun=lobes.sun[twice], weight=lobes.weight[twice])
+        lobes = replace(lobes, sun=lobes.sun[twice], weight=lobes.weight[twice], gain=lobes.gain[twice])
     return replace(
         tables, time_of_day=np.array([0.0, MIDNIGHT]), coefficients=tables.coefficients[twice],
         level=tables.level[twice], bend=tables.bend[twice], lobes=lobes,

@@ -10,20 +10,21 @@ import numpy as np
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
-from sensorsim.errors import InputError
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
-from sensorsim.tables.history import solve_histories
-from sensorsim.tables.lobes import Lobes, LobeSources, lobe_sources, lobe_weights
+from sensorsim.tables.history import wall_history
+from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
+from sensorsim.tables.slices import kept_samples
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.lead_in import lead_in_of
+from sensorsim.thermal.natural import melting_depth, surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
 
@@ -49,7 +50,8 @@ def bake_tables(
     own = settings.lead_in_days is None
     begin = lead_in_of(ground, environment, own=own)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
-    record = _slices(environment, settings)
+    record = kept_samples(environment, settings)
+    sources = _sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None
     bake = _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
@@ -58,7 +60,8 @@ def bake_tables(
         scope=scope,
         wall_types=tuple(wall_types),
         record=record,
-        sources=_sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None,
+        sources=sources,
+        facing=None if sources is None else facing_lobes(sources, scope.solved),
     )
     rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
     return ShadeTables(
@@ -96,11 +99,16 @@ class _Bake:
     wall_types: tuple[WallType, ...]
     record: IntArray  # (t,) samples of the slices
     sources: LobeSources | None
+    facing: FloatArray | None  # (t, k + 1, o) of the solved orientations to the lobes
 
     @property
     def reflectances(self) -> FloatArray:
         """Reflectances (r,) that are solved."""
         return np.asarray(self.scope.reflectances, dtype=np.float64)
+
+    def cost(self, wall: WallType) -> tuple[bool, float]:
+        """By which plain wall types are sorted so that no thread is left with a dear one at the end."""
+        return melting_depth(wall) > 0.0, sum(layer.thickness for layer in wall.layers)
 
     def solve(self, wall: WallType) -> _Solved:
         """March one plain wall type; orientations that no wall type needs of it are NaN."""
@@ -108,15 +116,19 @@ class _Bake:
         part = Exposure(
             normal=whole.normal[needed], irradiance=whole.irradiance[:, needed], longwave=whole.longwave[:, needed]
         )
-        solved = solve_histories(
-            self.environment, part, wall, self.reflectances, self.record, settings=self.settings, plan=self.plan
-        )
+        own = self.settings.lead_in_days is None
+        outside = surface_boundary(self.environment, part, wall, correlation=self.settings.convection, plan=self.plan)
+        solved = wall_history(
+            self.environment, outside, wall, 1.0 - self.reflectances, self.record, plan=self.plan,
+            lead_in=lead_in_of(wall, self.environment, own=own), cell_size=self.settings.cell_size,
+            stride=self.settings.lead_in_stride,
+        )  # fmt: skip
         temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
         temperature[:, needed] = solved
         if self.sources is None:
             return _Solved(temperature=temperature, weight=None)
         response = sun_response(
-            self.environment, self.exposure, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
+            self.environment, outside, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
             first=self.sources.first, settings=self.settings, plan=self.plan,
         )  # fmt: skip
         return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
@@ -132,7 +144,7 @@ class _Bake:
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
-        if self.sources is None:
+        if self.facing is None:
             return self._fit_needed(wall, temperature, degree)
         rises = [
             history.weight[..., None] * (1.0 - row)
@@ -141,7 +153,7 @@ class _Bake:
         ]
         courses = [part.mean(axis=1, keepdims=True) for part in parts]
         rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
-        return fit_lobes(temperature, rise, self.sources, self.exposure.normal, refl, degree)
+        return fit_lobes(temperature, rise, self.facing, self.settings.orientations, refl, degree)
 
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
@@ -158,8 +170,9 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
     plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, _Solved] = {}
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        for wall, history in zip(plain, pool.map(bake.solve, plain), strict=True):
-            solved[wall] = history
+        tasks = {wall: pool.submit(bake.solve, wall) for wall in sorted(plain, key=bake.cost, reverse=True)}
+        for wall in plain:
+            solved[wall] = tasks[wall].result()
             if progress is not None:
                 progress(wall.name, len(solved), len(plain))
         return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
@@ -180,7 +193,8 @@ def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dty
     if sources is None:
         return None
     weight = np.stack([row.weight for row in rows if row.weight is not None], axis=1)
-    return Lobes(sun=sources.sun, direction=sources.direction, weight=weight.astype(kept))
+    gain = np.stack([row.gain for row in rows if row.gain is not None], axis=1)
+    return Lobes(sun=sources.sun, direction=sources.direction, weight=weight.astype(kept), gain=gain)
 
 
 def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], settings: BakeSettings) -> ShadeTables:
@@ -199,13 +213,3 @@ def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], set
         settings=settings,
         lead_in=(),
     )
-
-
-def _slices(environment: Environment, settings: BakeSettings) -> IntArray:
-    """Samples from midnight to midnight of the image day that are kept."""
-    stride = settings.slice_interval / environment.step
-    if round(stride) < 1 or abs(stride - round(stride)) > 1e-9:
-        problem = f"no multiple of the environment's step of {environment.step:g} s"
-        raise InputError("bake settings", "slice_interval", settings.slice_interval, problem, "give both one step")
-    count = round(SECONDS_PER_DAY / settings.slice_interval)
-    return np.asarray(environment.image_window.start + np.arange(count + 1) * round(stride))

@@ -11,13 +11,13 @@ import zipfile
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import Any
 
 import numpy as np
 
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
+from sensorsim.files import placed_whole
 from sensorsim.materials import WallType
 from sensorsim.tables.bake import Progress, bake_tables
 from sensorsim.tables.coefficients import ShadeTables
@@ -30,7 +30,7 @@ CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
 _SEEN_ONLY = ("visibility", "aerosol")  # bear on what a sensor sees, not on how warm a wall is
 _ARRAYS = ("time_of_day", "coefficients", "level", "bend", "ground_temperature")
-_LOBES = ("sun", "direction", "weight")
+_LOBES = ("sun", "direction", "weight", "gain")
 _CODE = ("constants.py", "effects", "environment", "materials", "thermal", "tables")
 
 
@@ -133,9 +133,8 @@ def _write(path: Path, tables: ShadeTables) -> None:
         arrays |= {name: getattr(tables.lobes, name) for name in _LOBES}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with NamedTemporaryFile(dir=path.parent, suffix=".partial", delete=False) as file:
-            np.savez(file, digest=np.array(_arrays_digest(arrays)), **arrays)
-        Path(file.name).replace(path)
+        with placed_whole(path) as (partial,):
+            np.savez(partial, digest=np.array(_arrays_digest(arrays)), **arrays)
         _forget_old(path.parent)
     except OSError:
         return

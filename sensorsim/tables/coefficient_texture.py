@@ -41,11 +41,12 @@ def shade_texels(tables: ShadeTables, time_of_day: float, *, most: int | None = 
 
 
 def lobe_texels(moment: Moment, most: int) -> NDArray[np.float32]:
-    """Texels (1 + w, 1 + most, 4) of the lobes of a moment, `most` or fewer; layout in shaders/radiance/lobes.glsl."""
+    """Texels (1 + w, 2 + most, 4) of the lobes of a moment, `most` or fewer; layout in shaders/radiance/lobes.glsl."""
     walls, count = moment.weight.shape[:2]
-    texels = np.zeros((1 + walls, 1 + most, 4), dtype=np.float32)
+    texels = np.zeros((1 + walls, 2 + most, 4), dtype=np.float32)
     texels[0, 0, 0] = count
-    texels[0, 1 : 1 + count, :3] = moment.direction
+    texels[0, 2 : 2 + count, :3] = moment.direction
     texels[1:, 0, 0], texels[1:, 0, 1] = moment.level, moment.bend
-    texels[1:, 1 : 1 + count, :2] = moment.weight
+    texels[1:, 0, 2:], texels[1:, 1, :3] = moment.gain[:, [0, 4]], moment.gain[:, 1:4]
+    texels[1:, 2 : 2 + count, :2] = moment.weight
     return texels

@@ -30,6 +30,7 @@ class Moment:
     bend: FloatArray  # (w,) [K-1], see `straighten`
     direction: FloatArray  # (l, 3) of the lobes
     weight: FloatArray  # (w, l, 2) of the lobes, powers 0 and 1 of the reflectance [K]
+    gain: FloatArray  # (w, 5) of the lobes by where a surface faces, see `lobe_gain`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -56,18 +57,23 @@ class ShadeTables:
         if self.lobes is None:
             coefficients[..., 0] += level[:, None]
             level = np.zeros_like(level)
-        direction, weight = np.zeros((0, 3)), np.zeros((level.size, 0, 2))
+        direction, weight, gain = np.zeros((0, 3)), np.zeros((level.size, 0, 2)), np.zeros((level.size, 5))
         if self.lobes is not None:
             direction, weight = self.lobes.at(index, share)
+            gain = self.lobes.gain_at(index, share)
         return Moment(
-            coefficients=self._spread(coefficients), level=level, bend=bend, direction=direction, weight=weight
-        )
+            coefficients=self._spread(coefficients), level=level, bend=bend, direction=direction, weight=weight,
+            gain=gain,
+        )  # fmt: skip
 
     def _spread(self, coefficients: FloatArray) -> FloatArray:
         """From the solved orientations to those that are looked up."""
         if self.settings.interpolation != "spline" or coefficients.shape[1] == self.orientations.normal.shape[0]:
             return coefficients  # tables that were not baked have no more orientations than are looked up
-        return np.asarray(spline_matrix(self.settings.orientations, self.orientations.name) @ coefficients)
+        walls, count, powers = coefficients.shape
+        flat = coefficients.transpose(1, 0, 2).reshape(count, walls * powers)  # one product instead of one a wall
+        dense = spline_matrix(self.settings.orientations, self.orientations.name) @ flat
+        return np.asarray(dense.reshape(-1, walls, powers).transpose(1, 0, 2))
 
     @staticmethod
     def _between(values: NDArray[np.floating[Any]], index: int, share: float) -> FloatArray:

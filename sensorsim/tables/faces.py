@@ -61,6 +61,7 @@ def wall_face(
         light=max(float(exposure.irradiance.max(initial=0.0)), float(lighter.max(initial=0.0))),
         emissivity=wall.emissivity,
         forced=float(outside.film.max(initial=0.0)),
+        least_film=float(outside.film.min()) if outside.film.size else 0.0,
         free=float(max(outside.free.max(initial=0.0), outside.free_colder.max(initial=0.0))),
         rain=rain,
         latent=_latent(environment, outside, rain) if by_light else float(outside.latent.max(initial=0.0)),

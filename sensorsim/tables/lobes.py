@@ -33,6 +33,7 @@ class Lobes:
     sun: FloatArray  # (t, 3) direction of lobe 0 at the slices, unit
     direction: FloatArray  # (k, 3) of the others, unit
     weight: FloatArray  # (t, w, k + 1, 2) powers 0 and 1 of the reflectance [K]
+    gain: FloatArray  # (t, w, 5) by where a surface faces, see `lobe_gain`
 
     def at(self, index: int, share: float) -> tuple[FloatArray, FloatArray]:
         """Directions (l, 3) and weights (w, l, 2) [K] of the lobes that count at a share of the slice after `index`."""
@@ -41,6 +42,10 @@ class Lobes:
         direction = np.vstack([sun / np.linalg.norm(sun), self.direction])
         counts = np.any(np.stack([first, second]), axis=(0, 1, 3))
         return direction[counts], np.asarray(first + share * (second - first))[:, counts]
+
+    def gain_at(self, index: int, share: float) -> FloatArray:
+        """Gains (w, 5) at a share of the slice after `index`."""
+        return np.asarray(self.gain[index] + share * (self.gain[index + 1] - self.gain[index]))
 
     @property
     def most(self) -> int:
@@ -60,6 +65,16 @@ class LobeSources:
     clock: FloatArray  # (t,) of the slices [s]
     first: int  # sample that the sources begin with
     light: FloatArray  # (s, m) [W m-2]: of each interval today, that times the share of it gone by, each node's before
+
+
+def lobe_gain(gain: FloatArray, normal: FloatArray) -> FloatArray:
+    """What all lobes of surfaces with unit normals (m, 3) are multiplied by (..., m), from gains (..., 5)."""
+    return np.asarray(gain @ gain_terms(normal).T)
+
+
+def gain_terms(normal: FloatArray) -> FloatArray:
+    """Terms (m, 5) of the gain: constant, along east, north and up, and the edge along the horizon, |up|."""
+    return np.column_stack([np.ones(normal.shape[0]), normal, np.abs(normal[:, 2])])
 
 
 def lobe_sources(
@@ -92,6 +107,15 @@ def lobe_sources(
         first=first,
         light=np.hstack([sources[0][:, lit[lit < count]], sources[1][:, lit[lit < count]], sources[2]]),
     )
+
+
+def facing_lobes(sources: LobeSources, normal: FloatArray) -> FloatArray:
+    """Cosine (t, k + 1, o) of normals (o, 3) to the lobes at the slices, 0 behind them; lobe 0 is the sun."""
+    still = sources.direction @ normal.T
+    whole = np.concatenate(
+        [(sources.sun @ normal.T)[:, None], np.broadcast_to(still, (sources.sun.shape[0], *still.shape))], axis=1
+    )
+    return np.asarray(np.maximum(whole, 0.0))
 
 
 def sun_at(environment: Environment, position: FloatArray) -> FloatArray:

@@ -25,6 +25,8 @@ LAYOUTS = (
 )  # fmt: skip
 SCHEMES = ("barycentric", "closest")
 OUTSIDE = 1e-6  # how far beyond a triangle's edges a normal may lie by rounding
+ALIKE = 1e-12  # coordinates that differ by rounding, for normals of about unit length
+IN_CACHE = 1 << 15  # products of normals and triangles at a time
 NEAREST = 1e-6  # [-] squared distance at which one of the closest three takes all
 
 
@@ -54,10 +56,13 @@ class OrientationSet:
             return self._closest(_unit(normal))
         corner = np.zeros((normal.shape[0], 3), dtype=np.int64)
         weight = np.zeros((normal.shape[0], 3))
-        for rows in np.array_split(np.arange(normal.shape[0]), max(1, normal.shape[0] // 512)):
-            coordinate = np.einsum("tij,mj->mti", self.inverse, normal[rows])
-            best = np.argmax(coordinate.min(axis=2), axis=1)
-            held = coordinate[np.arange(rows.size), best]
+        along = np.ascontiguousarray(self.inverse.transpose(1, 2, 0))  # products of matrices: cities have many normals
+        parts = max(1, normal.shape[0] * self.triangle.shape[0] // IN_CACHE)
+        for rows in np.array_split(np.arange(normal.shape[0]), parts):
+            least = np.minimum.reduce([normal[rows] @ one for one in along])  # (m, t)
+            close = least >= least.max(axis=1, keepdims=True) - ALIKE
+            best = np.argmax(close, axis=1)  # the first, so that rounding decides nothing where triangles meet
+            held = np.einsum("mij,mj->mi", self.inverse[best], normal[rows])
             if np.any(held < -OUTSIDE * np.linalg.norm(normal[rows], axis=1, keepdims=True)):
                 lost = normal[rows][np.argmin(held.min(axis=1))].round(4).tolist()
                 problem, remedy = f"not among the orientations of {self.name} that were solved", "bake all effects"

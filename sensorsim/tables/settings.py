@@ -34,6 +34,7 @@ from sensorsim.thermal import CORRELATIONS, SKIES
 
 INTERPOLATIONS = ("spline", "barycentric", "closest")
 PRECISIONS = ("float32", "float16")
+THREE = (0.07, 0.5, 0.93)
 FIVE = (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
@@ -41,17 +42,17 @@ FIVE = (0.1, 0.3, 0.5, 0.7, 0.9)
 class BakeSettings:
     """How finely histories are solved and fitted."""
 
-    orientations: str = "octahedron66"  # layout of the standard orientations
+    orientations: str = "icosphere42"  # layout of the standard orientations
     interpolation: str = "spline"  # between them, one of INTERPOLATIONS
     lobes: float = 900.0  # [s] between the sun's places that have lobes of their own; 0: no lobes
-    reflectances: tuple[float, ...] = (0.07, 0.5, 0.93)  # solar reflectances that are solved
-    degree: int = 2  # of the polynomial in reflectance
+    reflectances: tuple[float, ...] = (0.02, 0.35, 0.8, 0.98)  # solar reflectances that are solved
+    degree: int = 3  # of the polynomial in reflectance
     step: float = 300.0  # [s]
     cell_size: float = 1.0  # of the walls' finite volumes over the usual
     slice_interval: float = 300.0  # [s] between the times that are kept
     precision: str = "float32"  # of the numbers that are kept, one of PRECISIONS
     lead_in_days: float | None = None  # before the image day; None: by the walls' own time constants, see `lead_in`
-    lead_in_stride: int = 3  # steps that are joined to one in the lead-in
+    lead_in_stride: int = 6  # steps that are joined to one in the lead-in
     sky: str = "perez"  # diffuse light on tilted surfaces: perez, or the four quadrants of 1978
     convection: str = "mowitt"  # correlation of the forced film
     exchange: bool = False  # whether near surfaces of the scene see each other, see `near_surfaces`
@@ -115,8 +116,8 @@ def _is_whole(whole: float, part: float) -> bool:
 
 
 PRESETS = {
-    "draft": BakeSettings(orientations="report26", interpolation="barycentric", lobes=3600.0, step=600.0, cell_size=1.5,
-                          slice_interval=1200.0),
+    "draft": BakeSettings(orientations="report26", interpolation="barycentric", lobes=3600.0, reflectances=THREE,
+                          degree=2, step=600.0, cell_size=1.5, slice_interval=1200.0),
     # the choices of 1978: few orientations, the closest three, five reflectances and a quartic, quarters of the sky
     "report": BakeSettings(orientations="report26", interpolation="closest", lobes=0.0, reflectances=FIVE, degree=4,
                            slice_interval=900.0, sky="quadrants"),

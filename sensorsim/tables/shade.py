@@ -7,6 +7,7 @@ the polynomial at the surface's reflectance. Tables with lobes add the sun's, ea
 import numpy as np
 
 from sensorsim.tables.coefficients import Moment, ShadeTables
+from sensorsim.tables.lobes import gain_terms
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.straighten import bend_back
 
@@ -43,8 +44,8 @@ def shade(
     coefficient = np.einsum("mk,mkp->mp", weight, moment.coefficients[wall_type[:, None], corner])
     facing = np.maximum(normal @ moment.direction.T, 0.0)
     seen = facing if visibility is None else visibility * facing
-    rise = moment.weight[wall_type]
-    sun = np.sum(seen * (rise[..., 0] + rise[..., 1] * reflectance[:, None]), axis=1)
+    rise, gain = moment.weight[wall_type], np.sum(moment.gain[wall_type] * gain_terms(normal), axis=1)
+    sun = gain * np.sum(seen * (rise[..., 0] + rise[..., 1] * reflectance[:, None]), axis=1)
     value = evaluate_polynomial(coefficient, reflectance) + sun
     return bend_back(value, moment.level[wall_type], moment.bend[wall_type])
 

@@ -17,10 +17,11 @@ FEW = 26  # orientations, below which only what is constant and linear is taken 
 def dense_layout(solved: str) -> str:
     """The set of orientations, so many that straight lines between them do, to which values at `solved` are led.
 
-    It holds all of `solved`: corners of a dense octahedron are also those of a cube, its edges' and faces' middles.
+    Octahedra have the horizon among the sides of their triangles, where walls face and values have an edge; dense ones
+    hold all of the sparser ones, and the corners of a cube, its edges' and faces' middles.
     """
-    if solved.startswith("icosphere"):
-        return solved if solved == "icosphere2562" else "icosphere642"
+    if solved in ("icosphere642", "icosphere2562"):
+        return solved
     return "octahedron1026" if solved in ("octahedron258", "octahedron1026") else "octahedron578"
 
 
@@ -31,11 +32,25 @@ def spline_matrix(solved: str, dense: str) -> FloatArray:
     Where both sets share an orientation the value there is kept.
     """
     known, asked = orientation_set(solved).normal, orientation_set(dense).normal
+    inverse = _solved_system(known)
+    wanted = np.hstack([_cubes(asked, known), _form(asked)[:, : inverse.shape[0] - known.shape[0]]])
+    return np.asarray((wanted @ inverse)[:, : known.shape[0]])
+
+
+@lru_cache(maxsize=8)
+def roughness(solved: str) -> FloatArray:
+    """Form A (o, o) of the set `solved`: v A v is the energy of the spline through values v, 0 where all is known."""
+    count = orientation_set(solved).normal.shape[0]
+    energy = _solved_system(orientation_set(solved).normal)[:count, :count]
+    return np.asarray(0.5 * (energy + energy.T))
+
+
+def _solved_system(known: FloatArray) -> FloatArray:
+    """From values at normals (o, 3), then as many zeros as forms are known, to the factors of cubes and forms."""
     size = 11 if known.shape[0] >= FEW else 4
     form = _form(known)[:, :size]
     system = np.block([[_cubes(known, known), form], [form.T, np.zeros((size, size))]])
-    wanted = np.hstack([_cubes(asked, known), _form(asked)[:, :size]])
-    return np.asarray((wanted @ np.linalg.pinv(system))[:, : known.shape[0]])
+    return np.asarray(np.linalg.pinv(system))
 
 
 def _cubes(first: FloatArray, second: FloatArray) -> FloatArray:

@@ -8,23 +8,22 @@ from sensorsim.materials import WallType
 from sensorsim.tables.history import inside_of
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
-from sensorsim.thermal.heat_balance import Exposure
+from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.linear_response import exterior_slope, interior_slope, linear_response
-from sensorsim.thermal.natural import AERODYNAMIC, surface_boundary
+from sensorsim.thermal.natural import AERODYNAMIC
 from sensorsim.thermal.paths import wall_paths
 
 
 def sun_response(
-    environment: Environment, exposure: Exposure, wall: WallType, temperature: FloatArray, record: IntArray, *,
+    environment: Environment, outside: Outside, wall: WallType, temperature: FloatArray, record: IntArray, *,
     light: FloatArray, first: int, settings: BakeSettings, plan: EffectPlan = EVERYTHING,
 ) -> FloatArray:  # fmt: skip
     """Rise (t, m) [K] of a plain wall type, black to the sun, by light (s, m) [W m-2] from sample `first` on.
 
-    Linear about its course (t, o) [K] at the samples `record` (t,), meant over all orientations; before the first of
-    them as at the same clock time later.
+    Linear about its course (t, o) [K] at the samples `record` (t,) under what acts `outside`, meant over all
+    orientations; before the first of them as at the same clock time later.
     """
     cover = wall.cover
-    outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
     at_record = outside._replace(
         film=outside.film[record], air=outside.air[record],
         latent=outside.latent[record] if outside.latent.shape[0] > 1 else outside.latent,

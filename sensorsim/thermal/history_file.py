@@ -1,6 +1,5 @@
-"""Writes the history of a wall as CSV text, and files whole or not at all."""
+"""Writes the history of a wall as CSV text, and several files together or none."""
 
-import secrets
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.errors import InputError
+from sensorsim.files import placed_whole
 from sensorsim.thermal.boundary import FloatArray
 from sensorsim.thermal.wall import WallHistory
 
@@ -38,25 +38,17 @@ def node_names(depth: FloatArray) -> list[str]:
 
 
 def write_whole(contents: Mapping[Path, bytes]) -> None:
-    """Write all files or none: each under a temporary name first; files of the same names are replaced."""
-    mark = f".{secrets.token_hex(4)}.partial"
-    temporary = {path: path.with_name(f".{path.name}{mark}") for path in contents}
-    placed: list[Path] = []
+    """Write all files or none; files of the same names are replaced."""
+    path = next(iter(contents))
     try:
-        for path, content in contents.items():
+        for path in contents:
             path.parent.mkdir(parents=True, exist_ok=True)
-            temporary[path].write_bytes(content)
-        for path, written in temporary.items():
-            written.replace(path)
-            placed.append(path)
+        with placed_whole(*contents) as temporary:
+            for path, written in zip(contents, temporary, strict=True):
+                written.write_bytes(contents[path])
     except OSError as error:
-        for written in placed:
-            written.unlink()
         remedy = "check the folder, its permissions and free space"
         raise InputError(path, "file", path.name, error.strerror or "not written", remedy) from error
-    finally:
-        for written in temporary.values():
-            written.unlink(missing_ok=True)
 
 
 def _quoted(text: str) -> str:

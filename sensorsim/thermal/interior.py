@@ -18,8 +18,9 @@ partitions and furniture. Where those bring the mean down by 3 K, at -10 C and a
 than here by 0.05 K through the insulated wall, 0.25 K through brick and 0.55 K through bare sheet metal.
 """
 
+from itertools import accumulate
+
 import numpy as np
-from scipy.signal import lfilter
 
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.errors import InputError
@@ -90,5 +91,5 @@ def _lagged(air: FloatArray, step: float, time_constant: float) -> FloatArray:
     ratio = step / time_constant
     keep, level = float(np.exp(-ratio)), float(-np.expm1(-ratio) / ratio)
     newest, last = 1.0 - level, level - keep
-    lagged, _ = lfilter([newest, last], [1.0, -keep], air, zi=[float(np.mean(air)) - newest * air[0]])
-    return np.asarray(lagged)
+    drive = (newest * air[1:] + last * air[:-1]).tolist()
+    return np.array(list(accumulate(drive, lambda now, push: keep * now + push, initial=float(np.mean(air)))))

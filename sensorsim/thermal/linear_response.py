@@ -60,20 +60,31 @@ def linear_response(
     for i in range(n - 1, 0, -1):  # from the inside out: only the outermost cell's own pivot changes with time
         pivot[i] = 1.0 / (rate[i] + conductance[i] + drain)
         drain = conductance[i] * (1.0 - conductance[i] * pivot[i])
-    plain = np.ascontiguousarray(source, dtype=np.float64)
-    return np.asarray(_march(rate, conductance, pivot, drain, plain, np.ascontiguousarray(slope), record))
+    first = np.where(np.any(source != 0.0, axis=0), np.argmax(source != 0.0, axis=0), source.shape[0])
+    order = np.argsort(first, kind="stable")
+    plain = np.ascontiguousarray(source[:, order], dtype=np.float64)
+    rise = np.zeros((record.size, source.shape[1]))
+    slopes = np.ascontiguousarray(slope)
+    rise[:, order] = _march(rate, conductance, pivot, drain, plain, first[order], slopes, record)
+    return rise
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _march(
-    rate: FloatArray, conductance: FloatArray, pivot: FloatArray, drain: float, source: FloatArray, slope: FloatArray,
-    record: NDArray[np.int64],
+    rate: FloatArray, conductance: FloatArray, pivot: FloatArray, drain: float, source: FloatArray,
+    first: NDArray[np.int64], slope: FloatArray, record: NDArray[np.int64],
 ) -> FloatArray:  # fmt: skip
-    """All steps to the last sample of `record`, which ascends; starts without any rise."""
-    n, m = rate.size, source.shape[1]
-    now, star, cells, face = np.zeros((n, m)), np.zeros((n, m)), np.zeros((n, m)), np.zeros(m)
-    rise, row = np.zeros((record.size, m)), int(record[0] == 0)
+    """All steps to the last sample of `record`, which ascends; starts without any rise.
+
+    Sources ascend by the sample that each is first felt at: before that they are passed over.
+    """
+    n, m = rate.size, 0
+    shape = (n, source.shape[1])
+    now, star, cells, face = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape[1])
+    rise, row = np.zeros((record.size, shape[1])), int(record[0] == 0)
     for k in range(record[-1]):
+        while m < shape[1] and first[m] <= k + 1:
+            m += 1
         for stage in range(2):
             at = GAMMA if stage == 0 else 1.0
             loss = (1.0 - at) * slope[k] + at * slope[k + 1]
@@ -94,7 +105,7 @@ def _march(
             for i in range(1, n):
                 for j in range(m):
                     cells[i, j] = (star[i, j] + conductance[i] * cells[i - 1, j]) * pivot[i]
-        now[:] = cells
+        now[:, :m] = cells[:, :m]
         if record[row] == k + 1:
             rise[row] = face
             row += 1

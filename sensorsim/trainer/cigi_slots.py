@@ -21,6 +21,24 @@ ENTITY_CONTROL_FLAGS = (
     ),
     bits(("animation_dir", 1), ("animation_loop_mode", 1), ("animation_state", 2), ("extrapolation_enable", 1)),
 )
+COMPONENT = (whole("H", "component_id"), bits(("component_class", 6)), whole("B", "component_state"))
+PART_ENABLES = bits(
+    ("part_enable", 1),
+    *((f"{axis}_enable", 1) for axis in ("xoff", "yoff", "zoff", "roll", "pitch", "yaw")),
+)
+SHORT_PARTS = (
+    whole("H", "entity_id"),
+    whole("B", "part_id_1"),
+    whole("B", "part_id_2"),
+    bits(("dof_select_1", 3, 6), ("dof_select_2", 3, 6), ("part_enable_1", 1), ("part_enable_2", 1)),
+)
+SHORT_PART_VALUES = reals("f", "dof_1", "dof_2", low=-FARTHEST, high=FARTHEST)
+RATE_TARGET = (
+    whole("H", "entity_id"),
+    whole("B", "part_id"),
+    bits(("apply_to_part", 1), ("coordinate_system", 1)),
+)
+RATES = reals("f", *(f"{axis}_rate" for axis in ("x", "y", "z", "roll", "pitch", "yaw")), low=-FASTEST, high=FASTEST)
 SENSOR_CONTROL_FLAGS = (
     bits(
         ("sensor_on_off", 1),
@@ -83,6 +101,11 @@ WEATHER_VALUES = (
     *ATMOSPHERE_VALUES[2:],
     real("f", "aerosol_concentration", 0.0, 1e6),
 )
+
+
+def component_words(count: int) -> tuple[Slot, ...]:
+    """Raw words that come with a component's state."""
+    return tuple(whole("I", f"data_{number}") for number in range(1, count + 1))
 
 
 def places(*prefixes: str) -> tuple[Slot, ...]:

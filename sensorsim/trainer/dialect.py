@@ -7,7 +7,8 @@ from functools import cached_property
 from sensorsim.errors import InputError
 from sensorsim.trainer.cigi3_host import HOST_PACKETS
 from sensorsim.trainer.cigi3_image import IMAGE_PACKETS
-from sensorsim.trainer.cigi4 import HOST_PACKETS_4, IMAGE_PACKETS_4
+from sensorsim.trainer.cigi4_host import HOST_PACKETS_4
+from sensorsim.trainer.cigi4_image import IMAGE_PACKETS_4
 from sensorsim.trainer.fields import ByteOrder, PacketKind
 
 BYTE_SWAP = 0x8000  # written in the sender's own order at a fixed place of a 3.3 message's first packet

@@ -8,18 +8,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.render import World
 from sensorsim.render.solids import Solids
 from sensorsim.tables.shade import surface_temperature
 from sensorsim.thermal.view_factors import quadrant_view_factors
+from sensorsim.trainer.articulation import posed
 from sensorsim.trainer.host_state import Triple
 from sensorsim.trainer.part_heat import Doing, excess_after, steady_excess
-from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude
+from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, FloatArray, attitude
 from sensorsim.trainer.things import Thing
-from sensorsim.trainer.vehicle_shape import VehicleShape, face_normal
+from sensorsim.trainer.vehicle_shape import METAL, VehicleShape, face_normal
 
-METAL = 12  # code of figure 9 of [Report1978]
 EMISSIVITY, SOLAR_REFLECTANCE, LOW_LIGHT_REFLECTANCE = 0.92, 0.25, 0.35  # of olive paint
 STANDS = 0.3  # [m s-1] below which a vehicle whose speed nobody said stands
 FASTEST = 80.0  # [m s-1]; a place further away is one that it was put to
@@ -57,27 +58,31 @@ class Fleet:
     def solids(self, things: Sequence[Thing], time: float, world: World, time_of_day: float) -> Solids | None:
         """Triangles of all vehicles that have a shape, at a time [s] of any clock; None where there is none."""
         shown = [thing for thing in things if thing.model in self._shapes]
-        self._known = {thing.key: self._now(thing, time, world, time_of_day) for thing in shown}
+        faces = self._faces(shown, world, time_of_day)
+        self._known = {thing.key: self._now(thing, time, found) for thing, found in zip(shown, faces, strict=True)}
         if not shown:
             return None
-        shapes = [self._shapes[thing.model] for thing in shown]
-        triangles = np.concatenate([_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)])
-        known, even = [self._known[thing.key] for thing in shown], np.ones(len(triangles))
+        shapes, known = [self._shapes[thing.model] for thing in shown], [self._known[thing.key] for thing in shown]
+        placed = [_placed(shape, thing) for shape, thing in zip(shapes, shown, strict=True)]
+        there = np.concatenate([seen for _, seen in placed])
+        if not there.any():
+            return None
+        triangles = np.concatenate([corners for corners, _ in placed])[there]
         heat = [one.faces.skin + one.excess[shape.part] for one, shape in zip(known, shapes, strict=True)]
+        even = np.ones(len(triangles))
         return Solids(
             triangles=triangles,
             normal=face_normal(triangles),
-            quarters=np.concatenate([one.faces.quarters for one in known]),
-            temperature=np.concatenate(heat),
+            quarters=np.concatenate([one.faces.quarters for one in known])[there],
+            temperature=np.concatenate(heat)[there],
             emissivity=EMISSIVITY * even,
             reflectance=LOW_LIGHT_REFLECTANCE * even,
-            number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes]),
+            number=np.repeat(np.arange(len(shown)), [len(shape.part) for shape in shapes])[there],
         )
 
-    def _now(self, thing: Thing, time: float, world: World, time_of_day: float) -> _Known:
+    def _now(self, thing: Thing, time: float, faces: _Faces) -> _Known:
         """A vehicle that appears has long been doing what it does."""
         before = self._known.get(thing.key)
-        faces = self._faces(thing, None if before is None else before.faces, world, time_of_day)
         if before is None:
             doing = _doing(thing, thing.speed or 0.0)
             return _Known(
@@ -88,18 +93,42 @@ class Fleet:
         excess = excess_after(before.excess, _doing(thing, speed), elapsed)
         return _Known(excess=excess, position=thing.position, speed=speed, time=time, faces=faces)
 
-    def _faces(self, thing: Thing, before: _Faces | None, world: World, time_of_day: float) -> _Faces:
-        """The faces as last found, unless the vehicle turned, the clock went on or the world is another."""
-        angles = np.rint(np.array(thing.angles) / TURN) * TURN
-        found_for = (thing.model, *angles.tolist(), time_of_day // SKIN_EVERY, world.inputs_sha256)
-        if before is not None and before.found_for == found_for:
-            return before
-        shape = self._shapes[thing.model]
-        first, second, third = angles.tolist()
-        normal = face_normal(shape.triangles) @ (ENU_FROM_NED @ attitude((first, second, third))).T
-        wall, reflectance = np.full(len(normal), skin_wall(world)), np.full(len(normal), SOLAR_REFLECTANCE)
-        skin = surface_temperature(world.tables, normal, wall, reflectance, time_of_day)
-        return _Faces(found_for=found_for, skin=skin, quarters=quadrant_view_factors(normal))
+    def _faces(self, shown: Sequence[Thing], world: World, time_of_day: float) -> list[_Faces]:
+        """Faces as last found, but where a vehicle or a part turned, the clock went on or the world is another."""
+        wanted = [(*_stance(thing), time_of_day // SKIN_EVERY, world.inputs_sha256) for thing in shown]
+        before = [self._known[thing.key].faces if thing.key in self._known else None for thing in shown]
+        stale = [row for row, old in enumerate(before) if old is None or old.found_for != wanted[row]]
+        found = _sunlit([self._normals(shown[row]) for row in stale], world, time_of_day)
+        new = {
+            row: _Faces(found_for=wanted[row], skin=skin, quarters=quarters)
+            for row, (skin, quarters) in zip(stale, found, strict=True)
+        }
+        return [new[row] if old is None or row in new else old for row, old in enumerate(before)]
+
+    def _normals(self, thing: Thing) -> FloatArray:
+        """Outward normals (t, 3) east, north, up of a vehicle that stands as `_stance` says."""
+        shape, (_, angles, _) = self._shapes[thing.model], _stance(thing)
+        corners, _ = posed(shape.triangles, shape.joints, thing.posture)
+        return np.asarray(face_normal(corners) @ (ENU_FROM_NED @ attitude(angles)).T)
+
+
+def _stance(thing: Thing) -> tuple[str, Angles, tuple[tuple[int, ...], ...]]:
+    """What the sunlight on a vehicle goes by: its model, and its own and its parts' angles to the nearest TURN."""
+    yaw, pitch, roll = (round(angle / TURN) * TURN for angle in thing.angles)
+    parts = tuple((number, *(round(angle / TURN) for angle in values[3:])) for number, _, values in thing.posture)
+    return thing.model, (yaw, pitch, roll), parts
+
+
+def _sunlit(normals: Sequence[FloatArray], world: World, time_of_day: float) -> list[tuple[FloatArray, FloatArray]]:
+    """Skin temperature (t,) [K] and view factors (t, 4) of several vehicles' faces, of which many face the same way."""
+    if not normals:
+        return []
+    ways, which = np.unique(np.round(np.concatenate(normals), 9) + 0.0, axis=0, return_inverse=True)
+    wall, reflectance = np.full(len(ways), skin_wall(world)), np.full(len(ways), SOLAR_REFLECTANCE)
+    skin = surface_temperature(world.tables, ways, wall, reflectance, time_of_day)[which]
+    ends = np.cumsum([len(faces) for faces in normals])[:-1]
+    quarters = quadrant_view_factors(ways)[which]
+    return list(zip(np.split(skin, ends), np.split(quarters, ends), strict=True))
 
 
 def skin_wall(world: World) -> int:
@@ -131,6 +160,7 @@ def _speed(before: _Known, thing: Thing, elapsed: float) -> float:
     return float(before.speed + share * (new - before.speed))
 
 
-def _placed(shape: VehicleShape, thing: Thing) -> FloatArray:
-    """Triangles (t, 3, 3) east, north, up [m]."""
-    return np.asarray(shape.triangles @ (ENU_FROM_NED @ attitude(thing.angles)).T + np.array(thing.position))
+def _placed(shape: VehicleShape, thing: Thing) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Triangles (t, 3, 3) east, north, up [m], and which of them are there (t,)."""
+    corners, there = posed(shape.triangles, shape.joints, thing.posture)
+    return corners @ (ENU_FROM_NED @ attitude(thing.angles)).T + np.array(thing.position), there

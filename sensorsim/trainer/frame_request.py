@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sensorsim.trainer.bake_request import BakeRequest
 from sensorsim.trainer.handle_environment import moment_of
 from sensorsim.trainer.host_state import Air, Component, HostState, Layer, Part, SensorState, Triple, View
-from sensorsim.trainer.motion import part_at
+from sensorsim.trainer.motion import parts_at
 from sensorsim.trainer.poses import Pose, Surroundings, entity_pose, view_pose
 from sensorsim.trainer.rotations import ENU_FROM_NED, Angles, angles_of
 
@@ -83,7 +83,10 @@ def compose_frame(
     state: HostState, around: Surroundings, *, frame: int, time: float, fresh: bool, bake: BakeRequest | None
 ) -> FrameRequest:
     """The frame at an IG time [s]. Views of entities without a place and entities that are not active are left out."""
-    views = (_view(state, view, time, around) for _, view in sorted(state.views.items()))
+    shown = {number for number, entity in state.entities.items() if entity.active}
+    needed = sorted(shown | {view.entity for view in state.views.values()})
+    poses = {number: entity_pose(state, number, time, around) for number in needed}
+    views = (_view(state, view, poses[view.entity], around) for _, view in sorted(state.views.items()))
     return FrameRequest(
         frame=frame,
         host_frame=state.host_frame,
@@ -92,7 +95,7 @@ def compose_frame(
         moment=moment_of(state.clock, time),
         sun=state.clock.sun,
         views=tuple(view for view in views if view is not None),
-        entities=_entities(state, time, around),
+        entities=_entities(state, time, {number: poses[number] for number in sorted(shown)}),
         air=state.air,
         layers=tuple(layer for _, layer in sorted(state.layers.items())),
         bake=bake,
@@ -115,8 +118,8 @@ def _triple(position: NDArray[np.float64]) -> Triple:
     return east, north, up
 
 
-def _view(state: HostState, view: View, time: float, around: Surroundings) -> ViewRequest | None:
-    pose = view_pose(state, view, time, around)
+def _view(state: HostState, view: View, entity: Pose | None, around: Surroundings) -> ViewRequest | None:
+    pose = view_pose(view, entity)
     if pose is None:
         return None
     return ViewRequest(
@@ -136,20 +139,19 @@ def _view(state: HostState, view: View, time: float, around: Surroundings) -> Vi
     )
 
 
-def _entities(state: HostState, time: float, around: Surroundings) -> tuple[EntityRequest, ...]:
+def _entities(state: HostState, time: float, poses: Mapping[int, Pose | None]) -> tuple[EntityRequest, ...]:
     found = []
-    for number, entity in sorted(state.entities.items()):
-        pose = entity_pose(state, number, time, around) if entity.active else None
+    for number, pose in poses.items():
         if pose is None:
             continue
-        moving = state.extrapolate and entity.extrapolate
+        entity = state.entities[number]
         request = EntityRequest(
             number=number,
             type_number=entity.type_number,
             position=_triple(pose.position),
             angles=local_angles(pose),
             alpha=entity.alpha,
-            parts={key: part_at(part, time) if moving else part for key, part in entity.parts.items()},
+            parts=parts_at(entity, time, moving=state.extrapolate),
             components={key[2]: part for key, part in state.components.items() if key[:2] == (0, number)},
         )
         found.append(request)

@@ -13,6 +13,7 @@ from sensorsim.trainer.settings import Moment
 Values = Mapping[str, Value]
 
 DESTROYED = 2
+SHORT_AXES = ("xoff", "yoff", "zoff", "yaw", "pitch", "roll")  # of the short packet's choices 1 to 6 [Wireshark4017]
 CLAMPS: tuple[Literal["none", "level", "conformal"], ...] = ("none", "level", "conformal")
 HIGHEST_LATITUDE, MOST_LONGITUDE = 89.9, 360.0  # [deg]; the map has no north at a pole
 
@@ -123,7 +124,7 @@ def short_articulated_part(state: HostState, values: Values, moment: Moment) -> 
             continue
         key = whole_number(values, f"part_id_{which}")
         part = _part_now(state, entity, key, moment)
-        said = {PART_AXES[axis - 1]: number(values, f"dof_{which}")}
+        said = {SHORT_AXES[axis - 1]: number(values, f"dof_{which}")}
         part = replace(part, enabled=flag(values, f"part_enable_{which}"), values={**part.values, **said})
         state = _with_part(state, entity, key, part)
     return state

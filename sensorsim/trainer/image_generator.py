@@ -7,6 +7,7 @@ Synchronous: the image generator is the clock, and what a host says holds for th
 did not come is the last one carried on. Asynchronous: a message holds for the time of its timestamp.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite
 
@@ -21,10 +22,12 @@ from sensorsim.trainer.frame_request import FrameRequest, compose_frame
 from sensorsim.trainer.handle_environment import moment_of
 from sensorsim.trainer.host_clock import TICK, WRAP, HostClock, hear_timestamp
 from sensorsim.trainer.host_state import HostState
+from sensorsim.trainer.obstacles import Standing, standing_vehicles
 from sensorsim.trainer.outbox import Outbox
 from sensorsim.trainer.poses import Surroundings
 from sensorsim.trainer.settings import ImageSettings, Moment
 from sensorsim.trainer.sight import answer
+from sensorsim.trainer.terrain import height_of_terrain
 from sensorsim.trainer.tracker import Locks, track_sensors
 
 REFUSED, BAKE_ASKED, BAKE_DONE, BAKE_REFUSED = 1, 2, 3, 4  # numbers of messages of text
@@ -57,6 +60,7 @@ class ImageGenerator:
         self._outbox = Outbox(MOST_WAITING)
         self._baked = self._asked = wanted_bake(self.state, settings.start, utc_offset)
         self._pending = False
+        height_of_terrain(around.terrain, 0.0, 0.0)  # rays are compiled now, not within a frame
 
     @property
     def is_fresh(self) -> bool:
@@ -71,8 +75,9 @@ class ImageGenerator:
             self.late_frames += 1
         self._time, self._fresh, self.frame = time, False, (self.frame + 1) % COUNTS
         if self.state.mode != STANDBY:
-            self._answer_queries()
-            responses, self._locks = track_sensors(self.state, time, self.around, self._locks)
+            vehicles = standing_vehicles(self.state, time, self.around) if self._looks() else ()
+            self._answer_queries(vehicles)
+            responses, self._locks = track_sensors(self.state, time, self.around, self._locks, vehicles)
             self._outbox.add(responses)
         first: dict[str, Value] = {
             "ig_mode": self.state.mode,
@@ -149,7 +154,11 @@ class ImageGenerator:
             return
         self._handshake = hear(self._handshake, self.state.database)
 
-    def _answer_queries(self) -> None:
+    def _looks(self) -> bool:
+        """Whether a line of sight may be asked for in this frame."""
+        return bool(self.state.queries) or any(one.track_mode != "off" for one in self.state.sensors.values())
+
+    def _answer_queries(self, vehicles: Sequence[Standing]) -> None:
         """Answers what is due, up to the limit of a frame; questions asked once are then forgotten."""
         due = [key for key, query in self.state.queries.items() if query.due <= self.frame]
         if not due or self._outbox.is_full:
@@ -157,7 +166,7 @@ class ImageGenerator:
         queries = dict(self.state.queries)
         for key in due[: self.settings.queries_per_frame]:
             query = queries.pop(key)
-            self._outbox.add(answer(self.state, query, self._time, self.around))
+            self._outbox.add(answer(self.state, query, self._time, self.around, vehicles))
             if query.period > 0:  # behind the others, so that all have their turn
                 queries[key] = replace(query, due=self.frame + query.period)
         self.state = replace(self.state, queries=queries)

@@ -34,13 +34,14 @@ class LocalPlace:
         across = (longitude - self.frame.longitude + 180.0) % 360.0 - 180.0
         if abs(across) > REACH or abs(latitude - self.frame.latitude) > REACH:
             return None
-        east, north = self.frame.metres_from_degrees(np.array([[longitude, latitude]]))[0]
+        east, north = self.frame.east_north(longitude, latitude)
         return np.array([east, north, altitude - self.altitude])
 
     def geodetic(self, position: FloatArray) -> tuple[float, float, float]:
         """Latitude, longitude [deg] and geodetic height [m] of a local position."""
-        longitude, latitude = self.frame.degrees_from_metres(position[None, :2])[0]
-        return float(latitude), float(longitude), float(position[2]) + self.altitude
+        east, north, up = position.tolist()
+        longitude, latitude = self.frame.longitude_latitude(east, north)
+        return latitude, longitude, up + self.altitude
 
     def convergence(self, latitude: float, longitude: float) -> float:
         """Heading of the map's north, east of true north positive [deg]; subtract it from a true heading.

@@ -46,6 +46,12 @@ def carried_on(entity: Entity, time: float) -> Entity:
     return replace(entity, place=place, angles=angles_of(axes), since=time)
 
 
+def parts_at(entity: Entity, time: float, *, moving: bool) -> dict[int, Part]:
+    """An entity's articulated parts as they are at a later time [s], where host and entity extrapolate."""
+    carried = moving and entity.extrapolate
+    return {key: part_at(part, time) if carried else part for key, part in entity.parts.items()}
+
+
 def part_at(part: Part, time: float) -> Part:
     """An articulated part as it is at a later time [s], each axis carried on by its rate."""
     elapsed = time - part.since

@@ -1,6 +1,7 @@
 """Where an entity and a view are at a time: motion carried on, parents followed, geodetic places made local."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from sensorsim.trainer.local_place import LocalPlace
 from sensorsim.trainer.motion import moved
 from sensorsim.trainer.rotations import ENU_FROM_NED, FloatArray, attitude, turned
 from sensorsim.trainer.terrain import Terrain, height_of_terrain
+from sensorsim.trainer.vehicle_shape import VehicleShape
 
 DEEPEST_CHAIN = 32  # entities that hang from each other
 EDGE_OF_MAP = 6e5  # [m] from the scene's origin
@@ -28,10 +30,11 @@ class Pose:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Surroundings:
-    """What places are measured against."""
+    """What places are measured against, and the shapes of vehicles by name, which stand in lines of sight."""
 
     place: LocalPlace
     terrain: Terrain
+    shapes: Mapping[str, VehicleShape] = field(default_factory=dict)
 
 
 def entity_pose(state: HostState, key: int, time: float, around: Surroundings) -> Pose | None:
@@ -54,13 +57,12 @@ def entity_pose(state: HostState, key: int, time: float, around: Surroundings) -
     return _on_map(pose)
 
 
-def view_pose(state: HostState, view: View, time: float, around: Surroundings) -> Pose | None:
+def view_pose(view: View, entity: Pose | None) -> Pose | None:
     """Pose of a view's eye: its offset, then its angles, in the axes of the entity that it is attached to."""
-    entity = state.entities.get(view.entity)
-    pose = entity_pose(state, view.entity, time, around) if entity is not None else None
-    if pose is None:
+    if entity is None:
         return None
-    return _on_map(Pose(position=pose.from_body(np.array(view.offset)), attitude=pose.attitude @ attitude(view.angles)))
+    eye = entity.from_body(np.array(view.offset))
+    return _on_map(Pose(position=eye, attitude=entity.attitude @ attitude(view.angles)))
 
 
 def _on_map(pose: Pose | None) -> Pose | None:

@@ -93,11 +93,18 @@ class ScenePictures:
         self._eyes.clear()
 
     def prepare(self, views: Sequence[int]) -> None:
-        """Makes and tries the renderers of views that are about to be drawn, each with the sensor of its number."""
-        camera = Camera(position=np.array([0.0, 0.0, 100.0]), yaw=0.0, pitch=-45.0, horizontal_field_of_view=40.0)
+        """Makes and tries the renderers of views that are about to be drawn, each with the sensor of its number.
+
+        Looks from high above and along the ground meet every kind of surface and the sky, so that all their shaders
+        are compiled before the first frame.
+        """
         for view in views:
             eye = self._eye(view, view if view < len(self.sensors) else 0, frozenset(views))
-            eye.renderer.render(camera, 0.0, planes=self._wanted(eye))  # compiles what the first frame needs
+            for height, pitch in ((2000.0, -90.0), (50.0, -10.0), (50.0, 30.0)):
+                camera = Camera(
+                    position=np.array([0.0, 0.0, height]), yaw=0.0, pitch=pitch, horizontal_field_of_view=90.0
+                )
+                eye.renderer.render(camera, 0.0, planes=self._wanted(eye))
 
     def _take_world(self, request: FrameRequest) -> None:
         if self._bake is None:

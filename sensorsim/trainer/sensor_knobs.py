@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.signal import lfilter
 
 from sensorsim.errors import InputError, NumericsError
 from sensorsim.sensor import DisplaySettings, display_code, fix_window
@@ -91,6 +90,8 @@ def ac_coupled(signal: FloatArray, decay: float, line_time: float) -> FloatArray
     """
     if decay == 0.0:
         return signal
+    from scipy.signal import lfilter  # takes longer to load than most commands take to work
+
     kept = float(np.exp(-line_time / (signal.shape[1] * decay)))
     mean = float(signal.mean())
     scan = signal.ravel() - mean

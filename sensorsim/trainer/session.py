@@ -18,7 +18,7 @@ from sensorsim.trainer.frame_request import FrameRequest, PictureSource
 from sensorsim.trainer.image_generator import ImageGenerator
 
 MOST_DATAGRAMS = 64  # taken in one frame
-KEPT = 100_000  # intervals and latencies for the report
+KEPT = 100_000  # of the last intervals and latencies, for the report
 
 Deliver: TypeAlias = Callable[[FrameRequest, Mapping[int, Mapping[str, NDArray[np.generic]]]], None]
 
@@ -67,20 +67,20 @@ def run_session(
     _check(rate, frames, wait_share)
     period, start = 1.0 / rate, monotonic()
     due, late, overrun, count = 0.0, 0, 0, 0
-    begun: list[float] = []
-    latencies: list[float] = []
+    begun, intervals, latencies = None, _Times(), _Times()
     while count < frames and not stop():
         sleep(max(0.0, start + due - monotonic()))
         now = monotonic() - start
-        begun.append(now)
+        if begun is not None:
+            intervals.add(now - begun)
+        begun = now
         link.send(ig.start_frame(now))
         arrived = _listen(ig, link, start, now + wait_share * period)
         request = ig.frame_request()
         deliver(request, draw(request))
         if arrived is not None:
-            latencies.append(monotonic() - start - arrived)
+            latencies.add(monotonic() - start - arrived)
         late += not request.fresh
-        del begun[:-KEPT], latencies[:-KEPT]
         lost = max(0, int((monotonic() - start - due) / period - 1.0))
         overrun, due, count = overrun + lost, due + (1 + lost) * period, count + 1
     return SessionReport(
@@ -88,9 +88,27 @@ def run_session(
         late=late,
         overrun=overrun,
         refused=ig.refused,
-        interval=_spread(np.diff(begun).tolist()),
-        latency=_spread(latencies),
+        interval=intervals.spread(),
+        latency=latencies.spread(),
     )
+
+
+class _Times:
+    """The last times [s], in memory that is there from the beginning and does not grow."""
+
+    def __init__(self) -> None:
+        self._values, self._count = np.full(KEPT, np.nan), 0
+
+    def add(self, value: float) -> None:
+        self._values[self._count % KEPT] = value
+        self._count += 1
+
+    def spread(self) -> tuple[float, float]:
+        """Median and 99th percentile, NaN where there were none."""
+        if self._count == 0:
+            return float("nan"), float("nan")
+        median, high = np.percentile(self._values[: min(self._count, KEPT)], [50.0, 99.0])
+        return float(median), float(high)
 
 
 def _listen(ig: ImageGenerator, link: HostLink, start: float, deadline: float) -> float | None:
@@ -106,13 +124,6 @@ def _listen(ig: ImageGenerator, link: HostLink, start: float, deadline: float) -
         if ig.settings.synchronous and ig.is_fresh:
             break
     return arrived
-
-
-def _spread(values: list[float]) -> tuple[float, float]:
-    if not values:
-        return float("nan"), float("nan")
-    median, high = np.percentile(values, [50.0, 99.0])
-    return float(median), float(high)
 
 
 def _check(rate: float, frames: int, wait_share: float) -> None:

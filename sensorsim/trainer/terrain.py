@@ -1,8 +1,6 @@
 """The scene's surfaces as triangles, and where rays meet them, in double precision.
 
-A ray meets a triangle by Cramer's rule on the corner and the two edges that leave it [MollerTrumbore1997]. Triangles
-lie in groups of neighbours with a box around each; a ray tries all boxes at once, then the triangles of those it meets.
-The single precision of Embree cannot give a range to a millimetre two kilometres away.
+Triangles lie in groups of neighbours with a box around each; a ray tries all boxes, then what is in those it meets.
 """
 
 from dataclasses import dataclass
@@ -11,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.scene import Scene
+from sensorsim.trainer.ray_kernel import GROUP, meetings
 from sensorsim.trainer.rotations import FloatArray
 
-EDGE = 1e-9  # barycentric: a ray along the edge of two triangles meets one of them at least
 SAME_PLACE = 1e-6  # [m]: meetings closer than this are one, on an edge of two triangles
 UNKNOWN_MATERIAL = 0
-GROUP = 32  # triangles
 MARGIN = 1e-6  # [m] around a box, for rays along its faces
 
 
@@ -38,12 +35,16 @@ class Terrain:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hit:
-    """Where a ray met a surface: range along it [m], position (3,) [m], outward unit normal (3,), material code."""
+    """Where a ray met a surface: range along it [m], position (3,) [m], outward unit normal (3,), material code.
+
+    entity: whose surface it is, None for the terrain.
+    """
 
     range: float
     position: FloatArray
     normal: FloatArray
     material: int
+    entity: int | None = None
 
     @property
     def height(self) -> float:
@@ -67,7 +68,7 @@ def terrain_from_triangles(triangles: FloatArray, material: NDArray[np.int64]) -
     corners, starts = triangles[kept], np.arange(0, len(kept), GROUP)
     none = np.zeros((0, 3))
     return Terrain(
-        corner=corners[:, 0],
+        corner=np.ascontiguousarray(corners[:, 0]),
         first=corners[:, 1] - corners[:, 0],
         second=corners[:, 2] - corners[:, 0],
         normal=across[kept] / length[kept, None],
@@ -86,34 +87,15 @@ def _by_neighbourhood(middle: FloatArray) -> NDArray[np.intp]:
     return np.asarray(np.lexsort((along, strip)))
 
 
-def _candidates(terrain: Terrain, origin: FloatArray, direction: FloatArray, far: float) -> NDArray[np.intp]:
-    """Triangles of the groups whose box a ray meets."""
-    slope = np.where(direction == 0.0, 1e-300, direction)  # 0 / 0 must not arise on a box's face
-    one, other = (terrain.low - origin) / slope, (terrain.high - origin) / slope
-    enter, leave = np.minimum(one, other).max(axis=1), np.maximum(one, other).min(axis=1)
-    groups = np.flatnonzero((enter <= leave) & (leave >= 0.0) & (enter <= far))
-    triangles = (groups[:, None] * GROUP + np.arange(GROUP)).ravel()
-    return triangles[triangles < len(terrain.corner)]
-
-
 def ray_hits(terrain: Terrain, origin: FloatArray, direction: FloatArray, near: float, far: float) -> list[Hit]:
     """Meetings of a ray, nearest first, at ranges from near to far [m]; direction (3,) of unit length."""
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        tried = _candidates(terrain, origin, direction, far)
-        first, second = terrain.first[tried], terrain.second[tried]
-        across = np.cross(direction, second)
-        volume = np.einsum("ij,ij->i", first, across)
-        share = 1.0 / volume
-        start = origin - terrain.corner[tried]
-        along_first = share * np.einsum("ij,ij->i", start, across)
-        turned = np.cross(start, first)
-        along_second = share * (turned @ direction)
-        distance = share * np.einsum("ij,ij->i", second, turned)
-        inside = (along_first >= -EDGE) & (along_second >= -EDGE) & (along_first + along_second <= 1.0 + EDGE)
-        met = np.flatnonzero(inside & (volume != 0.0) & (distance >= near) & (distance <= far))
+    found, ranges = meetings(
+        terrain.corner, terrain.first, terrain.second, terrain.low, terrain.high,
+        np.ascontiguousarray(origin), np.ascontiguousarray(direction), float(near), float(far),
+    )  # fmt: skip
     hits: list[Hit] = []
-    for row in met[np.argsort(distance[met], kind="stable")].tolist():
-        away, triangle = float(distance[row]), tried[row]
+    for row in np.argsort(ranges, kind="stable").tolist():
+        away, triangle = float(ranges[row]), int(found[row])
         if hits and away - hits[-1].range <= SAME_PLACE:
             continue
         hits.append(

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from sensorsim.trainer.articulation import Posture, posture_of
 from sensorsim.trainer.dis_listener import HeardEntity
 from sensorsim.trainer.frame_request import EntityRequest
 from sensorsim.trainer.host_state import Triple
@@ -18,7 +19,10 @@ CATEGORIES = {1: "tank", 2: "tank", 3: "tank", 4: "tank", 5: "tank", 6: "car"}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Thing:
-    """One vehicle. key: the same from frame to frame; engine_on and speed [m s-1]: None where nobody said."""
+    """One vehicle. key: the same from frame to frame; engine_on and speed [m s-1]: None where nobody said.
+
+    posture: how its articulated parts stand.
+    """
 
     key: tuple[int, ...]
     model: str
@@ -27,6 +31,7 @@ class Thing:
     engine_on: bool | None
     speed: float | None
     burning: bool
+    posture: Posture = ()
 
 
 def things_asked(entities: Iterable[EntityRequest]) -> list[Thing]:
@@ -40,6 +45,7 @@ def things_asked(entities: Iterable[EntityRequest]) -> list[Thing]:
             engine_on=bool(entity.components[ENGINE].state) if ENGINE in entity.components else None,
             speed=None,
             burning=FIRE in entity.components and bool(entity.components[FIRE].state),
+            posture=posture_of(entity.parts),
         )
         for entity in entities
         if entity.type_number in TYPES

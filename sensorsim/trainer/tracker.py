@@ -5,7 +5,7 @@ and force correlate take the point of terrain in the middle. What was taken is f
 something stands before it; the lock is then broken until the host switches tracking off and on.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import atan2, degrees, hypot
 from typing import TypeAlias
@@ -14,6 +14,7 @@ import numpy as np
 
 from sensorsim.trainer.fields import Value
 from sensorsim.trainer.host_state import HostState, SensorState, View
+from sensorsim.trainer.obstacles import Standing, sight_hits
 from sensorsim.trainer.poses import Pose, Surroundings, entity_pose, view_pose
 from sensorsim.trainer.rotations import FloatArray
 from sensorsim.trainer.sight import AT_THE_END, Answer
@@ -36,7 +37,9 @@ class Lock:
 Locks: TypeAlias = Mapping[tuple[int, int], Lock]
 
 
-def track_sensors(state: HostState, time: float, around: Surroundings, locks: Locks) -> tuple[list[Answer], Locks]:
+def track_sensors(
+    state: HostState, time: float, around: Surroundings, locks: Locks, vehicles: Sequence[Standing] = ()
+) -> tuple[list[Answer], Locks]:
     """A response for every sensor that tracks, each frame, and the locks after it."""
     answers: list[Answer] = []
     kept: dict[tuple[int, int], Lock] = {}
@@ -44,9 +47,9 @@ def track_sensors(state: HostState, time: float, around: Surroundings, locks: Lo
         view = state.views.get(sensor.view)
         if sensor.track_mode == "off" or not sensor.on or view is None:
             continue
-        eye = view_pose(state, view, time, around)
-        lock = None if eye is None else locks.get(key) or _acquire(state, sensor, view, eye, time, around)
-        lock, said = _gate(state, view, eye, lock, time, around)
+        eye = view_pose(view, entity_pose(state, view.entity, time, around))
+        lock = None if eye is None else locks.get(key) or _acquire(state, sensor, view, eye, time, around, vehicles)
+        lock, said = _gate(state, view, eye, lock, time, around, vehicles)
         if lock is not None:
             kept[key] = lock
         answers.append(_response(state, sensor, lock, said, around))
@@ -54,7 +57,13 @@ def track_sensors(state: HostState, time: float, around: Surroundings, locks: Lo
 
 
 def _acquire(
-    state: HostState, sensor: SensorState, view: View, eye: Pose, time: float, around: Surroundings
+    state: HostState,
+    sensor: SensorState,
+    view: View,
+    eye: Pose,
+    time: float,
+    around: Surroundings,
+    vehicles: Sequence[Standing],
 ) -> Lock | None:
     if sensor.track_mode in ("scene", "force correlate"):
         hits = ray_hits(around.terrain, eye.position, eye.attitude[:, 0], view.near, view.far)
@@ -66,13 +75,20 @@ def _acquire(
             continue
         across, up = _offsets(eye, pose.position)
         away = hypot(across, up)
-        if (best is None or away < best[0]) and _margin(view, across, up) >= 0.0 and _in_sight(eye, pose, around):
+        nearer = (best is None or away < best[0]) and _margin(view, across, up) >= 0.0
+        if nearer and _in_sight(eye, pose.position, around, vehicles, {view.entity, number}):
             best = away, Lock(entity=number, point=pose.position)
     return None if best is None else best[1]
 
 
 def _gate(
-    state: HostState, view: View, eye: Pose | None, lock: Lock | None, time: float, around: Surroundings
+    state: HostState,
+    view: View,
+    eye: Pose | None,
+    lock: Lock | None,
+    time: float,
+    around: Surroundings,
+    vehicles: Sequence[Standing],
 ) -> tuple[Lock | None, dict[str, Value]]:
     """The lock brought up to date, with status, size and place of the gate."""
     if eye is None or lock is None:
@@ -83,7 +99,8 @@ def _gate(
     point = lock.point if pose is None else pose.position
     across, up = _offsets(eye, point)
     margin = _margin(view, across, up)
-    seen = margin >= 0.0 and _in_sight(eye, Pose(position=point, attitude=eye.attitude), around)
+    passed = {view.entity} | (set() if lock.entity is None else {lock.entity})
+    seen = margin >= 0.0 and _in_sight(eye, point, around, vehicles, passed)
     if lock.broken or not seen:
         return replace(lock, broken=True), {"sensor_status": BREAKLOCK}
     status = IMPENDING_BREAKLOCK if margin < MARGIN else TRACKING
@@ -117,9 +134,12 @@ def _margin(view: View, across: float, up: float) -> float:
     return min(sideways, min(up - view.bottom, view.top - up) / high)
 
 
-def _in_sight(eye: Pose, target: Pose, around: Surroundings) -> bool:
-    way = target.position - eye.position
+def _in_sight(
+    eye: Pose, target: FloatArray, around: Surroundings, vehicles: Sequence[Standing], passed: Collection[int]
+) -> bool:
+    way = target - eye.position
     length = float(np.linalg.norm(way))
     if length <= 2.0 * AT_THE_END:
         return False
-    return not ray_hits(around.terrain, eye.position, way / length, AT_THE_END, length - 10.0 * AT_THE_END)
+    far = length - 10.0 * AT_THE_END
+    return not sight_hits(around.terrain, vehicles, eye.position, way / length, AT_THE_END, far, without=passed)

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.errors import InputError
+from sensorsim.trainer.articulation import Joint
 from sensorsim.trainer.rotations import FloatArray
 
 PARTS = ("skin", "engine", "exhaust", "tracks", "wheels", "cabin")
+METAL = 12  # what vehicles are of: code of figure 9 of [Report1978]
 SIDES = 12  # of a cylinder
 # Corners of the unit cube by the bits of their number (x, y, z), and its faces counter-clockwise seen from outside
 _CORNERS = np.array([[number & 1, number >> 1 & 1, number >> 2 & 1] for number in range(8)]) - 0.5
@@ -20,11 +22,15 @@ _FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class VehicleShape:
-    """Triangles (t, 3, 3) in body axes [m], counter-clockwise seen from outside; part (t,) as rows of PARTS."""
+    """Triangles (t, 3, 3) in body axes [m], counter-clockwise seen from outside; part (t,) as rows of PARTS.
+
+    joints: what moves against the body, inner ones before those that carry them.
+    """
 
     name: str
     triangles: FloatArray
     part: np.ndarray
+    joints: tuple[Joint, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what is no closed list of triangles of known parts."""
@@ -37,6 +43,9 @@ class VehicleShape:
         known = (self.part >= 0) & (self.part < len(PARTS))
         if self.part.shape != self.triangles.shape[:1] or not known.all():
             raise InputError(self.name, "part", self.part.shape, "not a row of PARTS for each triangle", "name parts")
+        for joint in self.joints:
+            if joint.carries.shape != self.part.shape or not np.isfinite(joint.pivot).all():
+                raise InputError(self.name, "joint", joint.number, "not of this shape", "give a flag for each triangle")
 
 
 def face_area(triangles: FloatArray) -> FloatArray:
@@ -73,10 +82,26 @@ def cylinder(middle: Sequence[float], radius: float, length: float, axis: int) -
     return _down(np.concatenate(sides)[:, :, turn] + np.array(middle))
 
 
-def shape(name: str, pieces: Sequence[tuple[str, FloatArray]]) -> VehicleShape:
-    """A shape of pieces, each with the name of its part."""
+def shape(
+    name: str,
+    pieces: Sequence[tuple[str, FloatArray]],
+    joints: Sequence[tuple[int, tuple[float, float, float], Sequence[int]]] = (),
+) -> VehicleShape:
+    """A shape of pieces, each with the name of its part.
+
+    joints: number, pivot forward, right, up [m], and the pieces carried; inner ones first.
+    """
     part = np.concatenate([np.full(len(triangles), PARTS.index(which)) for which, triangles in pieces])
-    return VehicleShape(name=name, triangles=np.concatenate([triangles for _, triangles in pieces]), part=part)
+    piece = np.concatenate([np.full(len(triangles), row) for row, (_, triangles) in enumerate(pieces)])
+    return VehicleShape(
+        name=name,
+        triangles=np.concatenate([triangles for _, triangles in pieces]),
+        part=part,
+        joints=tuple(
+            Joint(number=number, pivot=(forward, right, -up), carries=np.isin(piece, carried))
+            for number, (forward, right, up), carried in joints
+        ),
+    )
 
 
 def _down(triangles: FloatArray) -> FloatArray:

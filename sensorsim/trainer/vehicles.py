@@ -2,6 +2,7 @@
 
 from functools import cache
 
+from sensorsim.trainer.articulation import GUN, TURRET
 from sensorsim.trainer.rotations import FloatArray
 from sensorsim.trainer.vehicle_shape import VehicleShape, box, cylinder, shape
 
@@ -10,7 +11,7 @@ Piece = tuple[str, FloatArray]
 
 @cache
 def built_in_vehicles() -> dict[str, VehicleShape]:
-    """Truck, tank and car by name."""
+    """Truck, tank and car by name; the tank's turret and gun are articulated parts 1 and 2."""
     return {vehicle.name: vehicle for vehicle in (_truck(), _tank(), _car())}
 
 
@@ -42,7 +43,8 @@ def _tank() -> VehicleShape:
         ("tracks", box((0.0, -1.5, 0.5), (6.6, 0.6, 1.0))),
         ("tracks", box((0.0, 1.5, 0.5), (6.6, 0.6, 1.0))),
     ]
-    return shape("tank", pieces)
+    turret, gun = (0.2, 0.0, 1.55), (1.5, 0.0, 2.0)
+    return shape("tank", pieces, joints=[(GUN, gun, [4]), (TURRET, turret, [3, 4])])
 
 
 def _car() -> VehicleShape:

@@ -7,14 +7,13 @@ from datetime import date
 from typing import Any
 
 from sensorsim.render import Camera
-from sensorsim.scene import LEVELS
+from sensorsim.scene import ALL_LEVELS, LEVELS
 from sensorsim.sensor import DisplaySettings
 from sensorsim.viewer.clock import SCRUB_RATE, run_clock
 from sensorsim.viewer.keys import PRESSED, motion_of, scrub_of
 from sensorsim.viewer.motion import Motion, circle, drag, fly, point_ahead, wheel_speed, zoom
 from sensorsim.viewer.palettes import PALETTES
 from sensorsim.viewer.state import (
-    Place,
     ViewState,
     other_gain,
     other_polarity,
@@ -113,7 +112,8 @@ def _palette(state: ViewState, seen: Seen) -> ViewState:  # noqa: ARG001
 
 
 def _detail(state: ViewState, seen: Seen) -> ViewState:  # noqa: ARG001
-    level = LEVELS[(LEVELS.index(state.place.level) + 1) % len(LEVELS)]
+    levels = (*LEVELS, ALL_LEVELS)
+    level = levels[(levels.index(state.place.level) + 1) % len(levels)]
     return replace(state, place=replace(state.place, level=level))
 
 
@@ -121,7 +121,7 @@ def _weather(state: ViewState, seen: Seen) -> ViewState:
     names = [name for name, _ in seen.days]
     index = names.index(state.place.weather) if state.place.weather in names else -1
     name, day = seen.days[(index + 1) % len(names)]
-    return replace(state, place=Place(level=state.place.level, weather=name, day=day))
+    return replace(state, place=replace(state.place, weather=name, day=day))
 
 
 def _escape(state: ViewState, seen: Seen) -> ViewState:  # noqa: ARG001
@@ -132,7 +132,7 @@ def _play(state: ViewState, seen: Seen) -> ViewState:  # noqa: ARG001
     return replace(state, playing=not state.playing)
 
 
-_SWITCHES = ("side_by_side", "noise", "blur", "symbology", "probe", "panels", "help")
+_SWITCHES = ("side_by_side", "noise", "blur", "symbology", "probe", "panels", "help", "effects")
 _DISPLAY: Mapping[str, Callable[[DisplaySettings, DisplaySettings], DisplaySettings]] = {
     "polarity": lambda display, shown: other_polarity(display),  # noqa: ARG005
     "automatic": other_gain,

@@ -86,4 +86,4 @@ class Baker:
 
 
 def _name(place: Place) -> str:
-    return f"{place.level}, {place.weather}, {place.day.isoformat()}"
+    return f"{place.level}, {place.weather}, {place.day.isoformat()}, effects {place.choice.text}"

@@ -62,9 +62,9 @@ def seen(world: World, sensors: Mapping[str, Sensor], shots: Sequence[Shot], day
 
 def centre_range(shot: Shot) -> float | None:
     """Distance [m] to the surface in the middle of a picture, None where the sky is."""
-    distance = shot.picture.planes["range"]
+    distance = shot.told.planes["range"]
     row, column = distance.shape[0] // 2, distance.shape[1] // 2
-    return float(distance[row, column]) if shot.picture.planes["surface_id"][row, column] >= 0 else None
+    return float(distance[row, column]) if shot.told.planes["surface_id"][row, column] >= 0 else None
 
 
 def named(path_or_name: str) -> str:

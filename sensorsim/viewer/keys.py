@@ -43,6 +43,7 @@ PRESSED: Mapping[str, str] = {
     "M": "symbology",
     "I": "probe",
     "TAB": "panels",
+    "U": "effects",
     "H": "help",
     "F1": "help",
     "Y": "measure",
@@ -96,6 +97,7 @@ HELP: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
         "Scene and files",
         (
             ("F", "level of detail (bakes)"),
+            ("U", "effects: which are on, and why"),
             ("Y", "measure the error of the fit (probe)"),
             ("R, Backspace", "record the flight, fly it again"),
             ("F12", "picture as PNG with its settings"),

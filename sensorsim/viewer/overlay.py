@@ -92,7 +92,7 @@ def draw_notes(box: Box, lines: Sequence[str], *, at_top: bool) -> None:
 
 def help_page(box: Box) -> None:
     """All keys, in two columns."""
-    width, height = min(940.0, box[2] - 20.0), min(430.0, box[3] - 20.0)
+    width, height = min(940.0, box[2] - 20.0), min(456.0, box[3] - 20.0)
     imgui.set_next_window_pos(imgui.ImVec2(box[0] + 0.5 * (box[2] - width), box[1] + 0.5 * (box[3] - height)))
     imgui.set_next_window_size(imgui.ImVec2(width, height))
     imgui.set_next_window_bg_alpha(0.93)

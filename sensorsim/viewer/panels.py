@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from sensorsim.radiometry import FloatArray
 from sensorsim.render.air import Atmosphere
-from sensorsim.scene import LEVELS
+from sensorsim.scene import ALL_LEVELS, LEVELS
 from sensorsim.sensor import DisplaySettings
 from sensorsim.viewer.actions import Seen, adjust
 from sensorsim.viewer.clock import PLAY_SPEEDS, clock_text
@@ -171,9 +171,10 @@ def _window(display: DisplaySettings) -> DisplaySettings:
 def _scene(state: ViewState, facts: Facts) -> ViewState:
     imgui.separator_text("Scene")
     place = state.place
-    changed, index = imgui.combo("detail", LEVELS.index(place.level), list(LEVELS))
+    levels = [*LEVELS, ALL_LEVELS]
+    changed, index = imgui.combo("detail", levels.index(place.level), levels)
     if changed:
-        place = replace(place, level=LEVELS[index])
+        place = replace(place, level=levels[index])
     names = [name for name, _ in facts.seen.days]
     current = names.index(place.weather) if place.weather in names else 0
     changed, index = imgui.combo("weather", current, names)
@@ -185,6 +186,8 @@ def _scene(state: ViewState, facts: Facts) -> ViewState:
     day = _day(place.day)
     imgui.same_line()
     imgui.text(day.isoformat())
+    if imgui.button("Effects (U)", imgui.ImVec2(136.0, 0.0)):
+        state = replace(state, effects=not state.effects)
     return replace(state, place=replace(place, day=day))
 
 

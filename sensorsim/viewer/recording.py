@@ -1,6 +1,5 @@
 """Flights: recorded as a camera path, written as the CSV that `sensorsim capture` reads, and flown again."""
 
-import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from sensorsim.errors import InputError
+from sensorsim.files import placed_whole
 from sensorsim.frames.camera_path import PATH_COLUMNS, CameraPath
 from sensorsim.render import Camera
 from sensorsim.scene import LocalFrame
@@ -41,12 +41,10 @@ def write_camera_path(path: Path, flight: CameraPath, frame: LocalFrame) -> None
         angles = (camera.yaw, camera.pitch, camera.roll, camera.horizontal_field_of_view)
         place = f"{time:.4f},{latitude:.9f},{longitude:.9f},{float(camera.position[2]):.3f}"
         rows.append(",".join([place, *(f"{angle:.5f}" for angle in angles)]))
-    partial = path.with_name(f".{path.name}.{secrets.token_hex(4)}.partial")
     try:
-        partial.write_text("\n".join(rows) + "\n", encoding="utf-8")
-        partial.replace(path)
+        with placed_whole(path) as (partial,):
+            partial.write_text("\n".join(rows) + "\n", encoding="utf-8")
     except OSError as error:
-        partial.unlink(missing_ok=True)
         remedy = "check the folder's permissions and free space"
         raise InputError(path, "file", path.name, f"cannot be written ({error.strerror})", remedy) from error
 

@@ -12,6 +12,7 @@ from sensorsim.viewer.actions import Seen
 from sensorsim.viewer.baker import Baker
 from sensorsim.viewer.choices import centre_range
 from sensorsim.viewer.clock import clock_text, day_strip, sun_times
+from sensorsim.viewer.effects_panel import effects_panel
 from sensorsim.viewer.fit_errors import FitMeter
 from sensorsim.viewer.gui import Gui
 from sensorsim.viewer.overlay import HINT, Box, draw_notes, draw_scale, draw_symbols, help_page
@@ -42,6 +43,7 @@ class Showing(Protocol):
     clock: float
     note: str
     note_until: float
+    still: bool  # whether the camera rests
 
 
 def picture_box(size: tuple[int, int], *, panels: bool) -> Box:
@@ -83,7 +85,9 @@ class Screen:
             facts = self._facts(showing, self.seen)
             state, asked = panel(state, facts, float(size[1]))
             state = time_strip(state, facts, WIDTH, box[3], box[2])
-        if state.probe:
+        if state.effects and showing.shots and showing.shots[0].told.ledger is not None:
+            state = effects_panel(state, showing.shots[0].told.ledger, box[0], box[1])
+        if state.probe and showing.still:
             self._probe(showing, boxes, events.cursor)
         if state.help:
             help_page((0.0, 0.0, float(size[0]), float(size[1])))
@@ -128,11 +132,11 @@ class Screen:
         )  # fmt: skip
 
     def _facts(self, showing: Showing, seen: Seen) -> Facts:
-        first = showing.shots[0].picture
-        height, width = first.planes["display"].shape
+        first = showing.shots[0]
+        height, width = first.picture.planes["display"].shape
         return Facts(
             seen=seen, baked=showing.baked, milliseconds=1000.0 * showing.stage.seconds, drawn=(width, height),
-            strip=self.strip, sun=self.sun, histogram=histogram(first), recorded=len(showing.recording.time),
+            strip=self.strip, sun=self.sun, histogram=histogram(first.told), recorded=len(showing.recording.time),
         )  # fmt: skip
 
     def _probe(self, showing: Showing, boxes: Sequence[Box], cursor: tuple[float, float]) -> None:
@@ -143,7 +147,7 @@ class Screen:
             height, width = shot.picture.planes["display"].shape
             column = int(np.floor((cursor[0] - box[0]) / box[2] * width))
             row = int(np.floor((cursor[1] - box[1]) / box[3] * height))
-            probe = probe_pixel(self.world, shot.picture, column, row)
+            probe = probe_pixel(self.world, shot.picture, column, row) if shot.is_told else None
             if probe is not None:
                 day = None if probe.surface is None else self._day_of(probe.surface)
                 errors, right = showing.meter.found(self.world), boxes[-1][0] + boxes[-1][2]

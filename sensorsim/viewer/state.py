@@ -4,8 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from datetime import date
 
+from sensorsim.effects import EffectChoice
 from sensorsim.radiometry import FloatArray
-from sensorsim.render import Camera
+from sensorsim.render import EVERY_EFFECT, Camera
 from sensorsim.render.air import DEFAULT_ATMOSPHERE
 from sensorsim.sensor import DisplaySettings
 
@@ -20,6 +21,7 @@ class Place:
     level: str
     weather: str  # a name that comes with the package, or a file
     day: date
+    choice: EffectChoice = EVERY_EFFECT  # of the effects
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,6 +47,7 @@ class ViewState:
     probe: bool = True
     panels: bool = True
     help: bool = False
+    effects: bool = False  # whether they are listed
     recording: bool = False
     replaying: bool = False
     station: int = 0  # of the scene's cameras, the last one jumped to

@@ -1,31 +1,31 @@
 """The loop of the window: inputs, next state, pictures, panels, files. Needs the extra `viewer`."""
 
 import time
-from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-
-import numpy as np
 
 from sensorsim.errors import SensorsimError
 from sensorsim.frames.camera_path import CameraPath
 from sensorsim.render import World
 from sensorsim.render.air import DEFAULT_ATMOSPHERE
+from sensorsim.render.detail import DetailRule
 from sensorsim.sensor import Sensor
 from sensorsim.viewer.actions import FILE_ACTIONS, Inputs, advance, press
 from sensorsim.viewer.baker import Baker, Build
 from sensorsim.viewer.choices import Days, named, seen
 from sensorsim.viewer.clock import read_clock
+from sensorsim.viewer.effect_list import same_bake, with_choice
 from sensorsim.viewer.files import free_path, save_picture, save_planes, save_window
 from sensorsim.viewer.fit_errors import FitMeter
 from sensorsim.viewer.gui import Gui
 from sensorsim.viewer.keys import PRESSED
+from sensorsim.viewer.pace import Pace
 from sensorsim.viewer.recording import Recording, camera_at, write_camera_path
 from sensorsim.viewer.screen import Screen, picture_box
 from sensorsim.viewer.script import FRAME_TIME, Step, due
-from sensorsim.viewer.stage import Shot, Stage, drawn_size, next_scale
-from sensorsim.viewer.state import ViewState, with_sensor
+from sensorsim.viewer.stage import STEADY, Shot, Stage, drawn_size
+from sensorsim.viewer.state import Place, ViewState, with_sensor
 from sensorsim.viewer.window import Events, Window
 
 LONGEST_STEP = 0.1  # [s] that a frame moves the camera by, however long it took
@@ -42,6 +42,7 @@ class ViewerOptions:
     days: Days
     build: Build
     backend: str = "auto"
+    detail: DetailRule = STEADY
     flight: CameraPath | None = None  # to replay
     script: tuple[Step, ...] | None = None
     frames: int | None = None  # after which the window closes
@@ -56,9 +57,10 @@ class Viewer:
         with self.window.ctx:
             self.gui = Gui(self.window.ctx)
         self.screen = Screen(self.gui, world)
-        self.stage = Stage(world, options.sensors, options.backend)
+        self.stage = Stage(world, options.sensors, options.backend, options.detail)
         self.baker, self.meter = Baker(options.build), FitMeter()
         self.drawn = state  # the last state that made a picture
+        self.still = True  # whether the camera rests
         self.baked = self.asked = state.place
         self.shots: tuple[Shot, ...] = ()
         self.recording, self.flight, self.flown = Recording(), options.flight, 0.0
@@ -66,7 +68,7 @@ class Viewer:
         self.note, self.note_until = "", 0.0
         self.script_held: set[str] = set()
         self.cursor = (-1.0, -1.0)
-        self.scale, self.times = 2.0, deque[float](maxlen=8)
+        self.pace = Pace()
 
     def run(self) -> None:
         """Until the window is closed."""
@@ -88,7 +90,7 @@ class Viewer:
         self._step(inputs, seconds)
         self._follow_bake()
         box = picture_box(self.window.size, panels=self.state.panels)
-        scale = self.state.scale or self.scale
+        scale = self.state.scale or self.pace.scale
         self._draw(drawn_size(box[2], box[3], len(self.state.drawn), scale))
         self._fit_scale()
         with self.window.ctx:
@@ -104,8 +106,9 @@ class Viewer:
 
         In a world that is new there is no last one: the plain display and air are the way back then.
         """
+        plain = self.pace.plain(moves=self._moves())
         try:
-            self.shots = self.stage.draw(self.state, size)
+            self.shots = self.stage.draw(self.state, size, plain=plain)
         except SensorsimError as error:
             self._say(str(error))
             if self.shots:
@@ -114,6 +117,12 @@ class Viewer:
                 self.state = replace(self.state, displays={}, atmosphere=DEFAULT_ATMOSPHERE)
             self.shots = self.stage.draw(self.state, size)
         self.drawn = self.state
+
+    def _moves(self) -> bool:
+        """Whether the camera flies, or the hour runs and nothing is pointed at."""
+        self.still = self.state.camera is self.drawn.camera
+        runs = self.state.time_of_day != self.drawn.time_of_day
+        return not self.still or (runs and (not self.state.probe or self.gui.takes_mouse))
 
     def _tick(self) -> float:
         """Seconds since the last frame; those of a script are all alike."""
@@ -197,6 +206,9 @@ class Viewer:
         """Ask for the world that the state wants, and take in the one that is done."""
         if self.state.place != self.asked:
             self.asked = self.state.place
+            if same_bake(self.asked, self.baked) and not self.baker.busy:
+                self._meet(with_choice(self.stage.world, self.asked.choice), self.asked)
+                return
             self.baker.ask(self.asked)
         done = self.baker.collect()
         if done is None:
@@ -206,21 +218,21 @@ class Viewer:
             self.state = replace(self.state, place=self.baked)
             self.asked = self.baked
             return
-        self.stage.swap(done.world)
-        self.screen.meet(done.world)
-        self.baked, self.shots = done.place, ()
+        self._meet(done.world, done.place)
         if done.world.warnings:
             self._say(done.world.warnings[0])
+
+    def _meet(self, world: World, place: Place) -> None:
+        """Go on with a world, whole from one picture to the next."""
+        self.stage.swap(world)
+        self.screen.meet(world)
+        self.baked, self.shots = place, ()
 
     def _fit_scale(self) -> None:
         """Fewer pixels where pictures are slow; a script's are always as many, and a bake passes."""
         if self.options.script is not None or self.baker.busy:
             return
-        self.times.append(self.stage.seconds)
-        scale = next_scale(self.scale, np.array(self.times))
-        if scale != self.scale:
-            self.scale = scale
-            self.times.clear()
+        self.pace.took(self.stage.seconds)
 
     def _file(self, action: str) -> None:
         """Write what was asked for and say so; a disk that refuses ends nothing."""
