@@ -49,6 +49,7 @@ from sensorsim.thermal.lanes import (
     give,
     inner,
     note,
+    room_for,
     scalar,
     take,
     wide,
@@ -74,7 +75,7 @@ def advance(
     """
     trace = NO_TRACE if trace is None else trace
     place = np.arange(1, cells.outward.shape[0] + 2, dtype=Index) * CELL  # before and beyond them an idle cell
-    w, c = np.zeros(int(ALL)), np.zeros((place.size + 1) * int(CELL))
+    w, c = room_for(int(ALL)), room_for((place.size + 1) * int(CELL))
     lane = np.zeros(LANES, dtype=Index)  # made out here, so that the compiled code does not know how many
     return int(_advance(w, c, place, lane, columns, cells, damped, outside, inside, first, last, step, trace))
 
