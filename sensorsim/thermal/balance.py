@@ -52,10 +52,11 @@ A, B, C = 1.0 / 3.0, 2.0 / 9.0, 14.0 / 81.0  # of (1 - x)^(-1/3)
 
 
 @scalar
-def step_film(root: float, cubed: float) -> float:
-    """Inverse cube root by one step of fourth order from a near one; from afar it comes nearer."""
+def step_film(root: float, cubed: float) -> tuple[float, float]:
+    """Inverse cube root by one step of fourth order from a near one, and how far it went; from afar it comes nearer."""
     lack = max(1.0 - cubed * (root * root * root), -1.0)
-    return min(root * (1.0 + lack * (A + lack * (B + lack * C))), MOST_PER_FILM)
+    after = min(root * (1.0 + lack * (A + lack * (B + lack * C))), MOST_PER_FILM)
+    return after, A * abs(lack) if after < MOST_PER_FILM else 0.0
 
 
 @scalar
@@ -72,7 +73,7 @@ def newton(
     gap, room_gap = air - ext, room_air - inn
     lift, room_lift = (warmer if gap < 0.0 else colder) * abs(gap), free * abs(room_gap)
     cubed, room_cubed = cubed + lift, room_cubed + room_lift
-    root, room_root = step_film(old, cubed), step_film(room_old, room_cubed)
+    (root, turned), (room_root, room_turned) = step_film(old, cubed), step_film(room_old, room_cubed)
     square, room_square = root * root, room_root * room_root
     film, room_film = cubed * square, room_cubed * room_square
     kelvin, room_kelvin = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
@@ -83,7 +84,6 @@ def newton(
     room_slope = d + room_film + A * (room_lift * room_square) + 4.0 * room_cube
     scale = 1.0 / (slope * room_slope - b * c)
     move, room_move = (lack * room_slope + b * room_lack) * scale, (room_lack * slope + c * lack) * scale
-    turned, room_turned = abs(root - old) * film, abs(room_root - room_old) * room_film
     moved = abs(move) + abs(room_move) + turned * (abs(gap) + LEAST_GAP) + room_turned * (abs(room_gap) + LEAST_GAP)
     return max(ext + move, -ZERO_CELSIUS), max(inn + room_move, -ZERO_CELSIUS), root, room_root, moved
 
