@@ -6,6 +6,7 @@ It shares no line with the shaders: surfaces are met by ray casting, shade comes
 from dataclasses import dataclass
 
 import numpy as np
+from gloss_twin import glossy
 from numpy.typing import NDArray
 
 from sensorsim.materials.gloss import load_gloss
@@ -95,7 +96,7 @@ def emitted(
     codes = np.array([wall.code for wall in made.wall_types])[made.wall_type[surface]]
     towards = np.sum(view * normal, axis=-1)
     mirrored = view[:, 2] - 2.0 * towards * normal[:, 2]
-    for gloss, shown in zip(load_gloss(), light.mirror_table(), strict=True):
+    for gloss, shown in zip(load_gloss(), light.mirror_tables(emissive=True)["mirror_table"], strict=True):
         held = np.isin(codes, gloss.codes)
         along = emissivity if gloss.normal_emissivity is None else np.full_like(emissivity, gloss.normal_emissivity)
         emissivity = np.where(held, gloss.emissivity(along, -towards), emissivity)
@@ -104,13 +105,22 @@ def emitted(
     return np.asarray(emissivity * own + (1.0 - emissivity) * around)
 
 
-def reflected(world: World, surface: NDArray[np.int64], light: Illumination) -> FloatArray:
-    """Radiance [W m-2 sr-1] that leaves surfaces in a reflective band: sun, four quarters of the sky, sunlit ground."""
-    normal = world.scene.surfaces.normal[surface]
+def reflected(world: World, surface: NDArray[np.int64], light: Illumination, view: FloatArray) -> FloatArray:
+    """Radiance [W m-2 sr-1] that leaves surfaces in a reflective band: sun, four quarters of the sky, sunlit ground.
+
+    view (n, 3): unit directions from the sensor to the surfaces.
+    """
+    normal, made = world.scene.surfaces.normal[surface], world.assignment
+    reflectance = made.nir_reflectance[surface]
     sun = light.beam * np.maximum(normal @ light.sun_direction, 0.0)
-    sky = 4.0 * quadrant_view_factors(normal) @ light.quadrant
-    ground = np.pi * light.ground_radiance * 0.5 * (1.0 - normal[:, 2])
-    return np.asarray(world.assignment.nir_reflectance[surface] * (sun + sky + ground) / np.pi)
+    diffuse = 4.0 * quadrant_view_factors(normal) @ light.quadrant
+    diffuse += np.pi * light.ground_radiance * 0.5 * (1.0 - normal[:, 2])
+    leaves = reflectance * (sun + diffuse) / np.pi
+    codes = np.array([wall.code for wall in made.wall_types])[made.wall_type[surface]]
+    for gloss in load_gloss():
+        held = np.isin(codes, gloss.codes)
+        leaves[held] = glossy(gloss, reflectance[held], normal[held], view[held], diffuse[held], light)
+    return np.asarray(leaves)
 
 
 def through_air(
@@ -118,7 +128,7 @@ def through_air(
 ) -> FloatArray:
     """Radiance at the sensor [W m-2 sr-1] over distances [m] along unit directions of view (..., 3)."""
     height = float(camera.position[2])
-    return light.air.apparent_radiance(
+    return light.air.seen_from(height).apparent_radiance(
         source, distance, height, height + distance * view[..., 2], view @ light.sun_direction
     )
 

@@ -110,10 +110,10 @@ def test_wider_lobe_blurs_the_horizon_but_not_the_mean() -> None:
 
 
 def test_records_know_glossy_codes_from_matt_ones() -> None:
-    found = gloss_records(np.array([98, 20, 12]), np.array([0.983, 0.93, 0.705]))
-    assert found[0].tolist() == [_kind("water")[0], 0.985, 0.0, 0.0]
+    found = gloss_records(np.array([98, 20, 12]), np.array([0.983, 0.93, 0.705]), np.array([0.01, 0.4, 0.2]))
+    assert found[0].tolist() == [_kind("water")[0], 0.985, 0.01, 0.0]
     assert found[1].tolist() == [-1.0, 0.93, 0.0, 0.0]
-    assert found[2].tolist() == [_kind("sheet metal")[0], 0.705, 0.0, 0.0]
+    assert found[2].tolist() == [_kind("sheet metal")[0], 0.705, 0.1, 0.0]
 
 
 def test_no_code_has_two_kinds() -> None:
@@ -130,10 +130,19 @@ def test_no_code_has_two_kinds() -> None:
         ({"normal": {"value": 1.2}}, "normal"),
         ({"index": [[8.0, 1.3, 0.0], [14.0, 1.2, 0.3]]}, "gloss"),
         ({"exponent": 5.0}, "exponent"),
+        ({"nir": {"share": {"value": 1.0}}}, "nir"),
+        ({"nir": {"share": {"value": 1.1}, "exponent": {"value": 5.0}}}, "nir share"),
+        ({"nir": {"share": {"value": 1.0}, "exponent": {"value": float("inf")}}}, "nir exponent"),
+        ({"nir": {"share": {"value": 1.0}, "index": [[0.8, 1.5], [1.1, 1.5]], "faces": 3}}, "nir"),
+        ({"nir": {"share": {"value": 1.0}, "index": [[0.8, 1.5]]}}, "nir index"),
+        ({"nir": {"share": {"value": 1.0}, "index": [[0.8, 1.5], [1.1, float("nan")]]}}, "nir index"),
+        ({"waves": {"calm": -0.01, "per_wind": 0.005}}, "waves"),
+        ({"waves": {"calm": 0.003}}, "waves"),
     ],
 )
 def test_impossible_gloss_is_refused_by_file_and_entry(changes: dict[str, Any], entry: str) -> None:
-    good = {"name": "paint", "codes": [1], "exponent": {"value": 5.0}, "spread": {"value": 1.0}}
+    nir = {"exponent": {"value": 5.0}, "share": {"value": 1.0}}
+    good = {"name": "paint", "codes": [1], "exponent": {"value": 5.0}, "spread": {"value": 1.0}, "nir": nir}
     assert read_gloss(Path("gloss.toml"), good).name == "paint"
     with pytest.raises(InputError, match=rf"gloss.toml.*{entry}"):
         read_gloss(Path("gloss.toml"), {**good, **changes})

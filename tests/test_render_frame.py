@@ -84,7 +84,7 @@ def test_low_light_frame_is_its_twin(lltv: Renderer, name: str, time: float) -> 
     seen, rows, distance = _seen(picture)
     light = picture.illumination
     view = pixel_rays(VIEWS[name], SIZE)[seen]
-    twin = through_air(reflected(town(), rows, light), distance, VIEWS[name], view, light)
+    twin = through_air(reflected(town(), rows, light, view), distance, VIEWS[name], view, light)
     np.testing.assert_allclose(picture.planes["radiance"][seen], twin, rtol=2e-5)
     behind = background(VIEWS[name], pixel_rays(VIEWS[name], SIZE), light)[~seen]
     np.testing.assert_allclose(picture.planes["radiance"][~seen], behind, rtol=2e-5)

@@ -33,6 +33,7 @@ def _light(**changes: Any) -> dict[str, Any]:
         "beam": 410.0,
         "sky_radiance": 21.0,
         "ground_radiance": 37.0,
+        "mirrors": 1.0,
         **changes,
     }
 

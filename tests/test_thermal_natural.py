@@ -8,6 +8,7 @@ import pytest
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
+from sensorsim.effects import EVERYTHING
 from sensorsim.environment import Environment, build_environment, read_weather, saturation_vapour_pressure
 from sensorsim.materials import Catalogue, Cover, WallType, load_catalogue
 from sensorsim.scene import load_scene
@@ -237,6 +238,19 @@ def test_snow_never_gets_above_freezing_and_its_melt_is_counted(
     assert frozen.melted.max() == 0.0
     covered = replace(environment, ground_state=np.full(environment.time.size, "snow"))
     assert ground_temperature(covered, snow).max() <= ZERO_CELSIUS
+
+
+def test_ground_of_snow_is_held_at_freezing_by_its_melting_alone(
+    weather: dict[str, Environment], catalogue: Catalogue
+) -> None:
+    """In air of 15 K more, from the first step on, without the cap that other ground has under snow."""
+    snow, mild = catalogue.wall_type(SNOW_CODE, "none"), weather["winter"]
+    state = np.full(mild.time.size, "snow")
+    mild = replace(mild, air_temperature=mild.air_temperature + 15.0, ground_state=state)
+    alone = ground_temperature(mild, snow, plan=EVERYTHING.without("snow"))[1:]
+    assert alone.max() <= ZERO_CELSIUS + 1e-9
+    assert np.mean(alone >= ZERO_CELSIUS - 1e-9) > 0.5
+    np.testing.assert_array_equal(ground_temperature(mild, snow)[1:], alone)
 
 
 def test_snow_lies_on_every_ground_of_the_scene_but_not_on_trees_blocks_and_roofs(catalogue: Catalogue) -> None:

@@ -52,8 +52,7 @@ class AirBefore:
 
     def _opacity(self, distance: float, heights: tuple[float, ...]) -> FloatArray:
         """1 - t (k,) [-] of each term where the air is densest all along the path."""
-        ends = np.array([self.camera_height, *heights])
-        densest = self.path.coefficient * np.exp(-np.outer(ends, self.path.inverse_scale_height)).max(axis=0)
+        densest = self.path.densest(np.array([self.camera_height, *heights]))
         depth = np.where(densest > 0.0, distance, 0.0) * np.where(densest > 0.0, densest, 1.0)
         return np.asarray(-np.expm1(-depth))
 

@@ -54,7 +54,7 @@ EFFECTS = (
     _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
     _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
     _frame("reflected_sky", "sky and ground mirrored by surfaces", "no mirrored part", "emissive"),
-    _frame("specular", "mirrors: emissivity by angle, and what lies that way", "matt surfaces", "emissive"),
+    _frame("specular", "mirrors: sky, ground and glint of the sun, by the angle", "matt surfaces"),
     _frame("reflected_sun", "light in band straight from sun or moon, from surfaces", _DARK, "reflective"),
     _frame("atmosphere", "what the air takes from a surface's radiance and adds of its own", "a path through nothing"),
     _part("blur", "optics, motion and size of the detector", "each pixel sees its middle"),
@@ -75,7 +75,7 @@ BY_NAME = {effect.name: effect for effect in EFFECTS}
 # What no setting can switch on.
 NOT_MODELLED = (
     "cast shadows, and surfaces in each other's way, except by the optional exchange",
-    "mirrors outside of 8-14 um, so no glint of the sun; and surfaces in each other's mirrors",
+    "surfaces in each other's mirrors, and the sun in those of emissive bands",
     "conduction along a wall, and across its edges",
     "blur by motion of the camera or of what it sees, beyond the sensor's own jitter and drift",
     "scattering of sunlight along the path in emissive bands, turbulence, and polarisation",

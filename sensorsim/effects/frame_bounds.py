@@ -16,6 +16,7 @@ from sensorsim.effects.air_bounds import AirBefore
 from sensorsim.effects.costs import pixel_cost
 from sensorsim.effects.face import FloatArray
 from sensorsim.effects.ledger import NOISE_SHARE, Bound
+from sensorsim.environment import SUN_RADIUS
 from sensorsim.radiometry import BandTable
 
 GREY_STEPS = 255.0  # of a display, from a black surface to a white one in the light of the moment
@@ -44,7 +45,7 @@ class Look:
     beam: float  # irradiance normal to the sun, in band [W m-2]
     quadrant: FloatArray  # (4,) irradiance of the horizontal from the quarters of the sky, in band [W m-2]
     sky_radiance: float  # mean of the sky [W m-2 sr-1]
-    sky_range: tuple[float, float]  # its least and greatest [W m-2 sr-1]
+    sky_range: tuple[float, float]  # its least and greatest, with its glow [W m-2 sr-1]
     ground_radiance: float  # [W m-2 sr-1]
     air: AirBefore
     pixels: int  # of the picture
@@ -101,16 +102,29 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
 
 def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     """Bounds [W m-2 sr-1] of radiance. Light of sky and ground is what such a band is about, and no effect."""
-    share = look.reflectance / PI
+    share, count, cost = look.reflectance / PI, look.mirrors.matt.size, pixel_cost(look.pixels)
     direct = float(np.max(share * look.beam * np.maximum(look.normal @ look.sun_direction, 0.0), initial=0.0))
     sky = 4.0 * float(look.quadrant.max()) * 0.5 * (1.0 + look.normal[:, 2])
     ground = PI * look.ground_radiance * 0.5 * (1.0 - look.normal[:, 2])
-    brightest = direct + float(np.max(share * (sky + ground), initial=0.0))
-    lit = "sun or moon lights surfaces" if direct > 0.0 else "neither sun nor moon"
+    matt = direct + float(np.max(share * (sky + ground), initial=0.0))
+    glint = brightest_glint(look)
+    mirrored = max(look.sky_range[1], look.ground_radiance) + glint if count else 0.0
     return {
-        "reflected_sun": Bound(value=direct, reason=lit, saves=pixel_cost(look.pixels)),
-        "atmosphere": _air(look, 0.0, brightest, None),
-    }
+        "specular": Bound(
+            value=matt + mirrored if count else 0.0, saves=cost if count else 0.0,
+            reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
+        ),
+        "reflected_sun": Bound(
+            value=direct + glint, saves=cost,
+            reason="sun or moon lights surfaces" if direct + glint > 0.0 else "neither sun nor moon",
+        ),
+        "atmosphere": _air(look, 0.0, matt + mirrored, None),
+    }  # fmt: skip
+
+
+def brightest_glint(look: Look) -> float:
+    """Radiance [W m-2 sr-1] that no glint exceeds: of the light's own disc, where glossy surfaces may be in view."""
+    return look.beam / (PI * SUN_RADIUS**2) if look.mirrors.matt.size else 0.0
 
 
 def reflective_tolerance(look: Look) -> float:

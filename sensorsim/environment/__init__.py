@@ -33,6 +33,7 @@ from sensorsim.environment.sample import EnvironmentSample
 from sensorsim.environment.site import Site
 from sensorsim.environment.sky_glow import SkyGlow, clear_glow, overcast_radiance
 from sensorsim.environment.sun import (
+    SUN_RADIUS,
     Sunlight,
     SunPosition,
     clear_sunlight,
@@ -63,6 +64,7 @@ __all__ = [
     "QUADRANT_NAMES",
     "QUADRANT_SOLID_ANGLE",
     "SNOW_MAXIMUM_TEMPERATURE",
+    "SUN_RADIUS",
     "AirPath",
     "BandSky",
     "Environment",

@@ -1,6 +1,6 @@
 """The air between a sensor and what it looks at: a sum of exponentials that thins out with height and glows.
 
-    tau = sum of weight_i exp(-d_i),   d_i = coefficient_i * range * mean of exp(-z / H_i) along the path
+    tau = sum of weight_i exp(-d_i),   d_i = range * (coefficient_i * mean of exp(-z / H_i) along the path + haze)
     L   = sum of weight_i [t_i L_surface + path_i],   t_i = exp(-d_i)
 
 A straight path from height z_c to z_t has the mean density (e^(-z_c/H) - e^(-z_t/H)) H / (z_t - z_c), whatever its
@@ -13,19 +13,20 @@ Where all is of one temperature the sources are its blackbody radiance and L doe
 The shader's counterpart is shaders/radiance/path.glsl.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from sensorsim.constants import PI
+from sensorsim.environment.haze import NO_HAZE, SMALL, Haze, mean_decay
 from sensorsim.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
 
 MOST_TERMS = 4  # that a shader has room for
-_SMALL = 1e-2  # argument below which (1 - e^-x) / x and its kin come from their series, in the shader too
 _LEAST_HEIGHT = 1.0  # [m] over which the slope of a source is taken
+_STEPS = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -36,12 +37,13 @@ class AirPath:
     """
 
     weight: FloatArray  # (k,) [-], sums to one
-    coefficient: FloatArray  # (k,) [m-1] extinction at height 0
+    coefficient: FloatArray  # (k,) [m-1] extinction at height 0, but for that of haze
     inverse_scale_height: FloatArray  # (k,) [m-1] of the extinction; 0 for air that is the same at all heights
     source: FloatArray  # (k,) [W m-2 sr-1] radiance of an endless level path at height 0
     source_decay: float  # [m-1] relative loss of the source with height
     beam_source: FloatArray  # (k,) [W m-2 sr-1] sunlight scattered at a right angle to the beam, height 0
     asymmetry: float  # [-] g of the phase function [HenyeyGreenstein1941], -1 to 1
+    haze: Haze = NO_HAZE  # the same in all terms
 
     def __post_init__(self) -> None:
         count = self.weight.size
@@ -95,8 +97,26 @@ class AirPath:
     def _depth(self, distance: npt.ArrayLike, camera_height: npt.ArrayLike, target_height: npt.ArrayLike) -> FloatArray:
         start = np.asarray(camera_height, dtype=np.float64)[..., None] * self.inverse_scale_height
         end = np.asarray(target_height, dtype=np.float64)[..., None] * self.inverse_scale_height
-        thickness = np.exp(-start) * _mean_decay(end - start)
-        return np.asarray(np.asarray(distance, dtype=np.float64)[..., None] * self.coefficient * thickness)
+        gas = self.coefficient * np.exp(-start) * mean_decay(end - start)
+        haze = self.haze.extinction * self.haze.mean_density(camera_height, target_height)[..., None]
+        return np.asarray(np.asarray(distance, dtype=np.float64)[..., None] * (gas + haze))
+
+    def seen_from(self, camera_height: float) -> "AirPath":
+        """The same air without haze as such, each term falling off so that paths down to the ground keep their depth.
+
+        Paths from that height [m] to roofs are off as haze and gases fall off differently: in haze of 5 km, from above
+        it, to a roof 40 m high, by up to a twentieth of the depth, from within it by a thousandth.
+        """
+        height = np.copysign(max(abs(camera_height), _LEAST_HEIGHT), camera_height)
+        here = self.densest(np.array([height]))
+        mean = self._depth(1.0, height, 0.0)
+        inverse = _decay_of_mean(np.where(here > 0.0, mean / np.where(here > 0.0, here, 1.0), 1.0)) / -height
+        return replace(self, coefficient=here * np.exp(height * inverse), inverse_scale_height=inverse, haze=NO_HAZE)
+
+    def densest(self, heights: FloatArray) -> FloatArray:
+        """Greatest extinction (k,) [m-1] of each term at any of the heights (n,) [m]."""
+        gas = self.coefficient * np.exp(-np.outer(heights, self.inverse_scale_height))
+        return np.asarray(np.max(gas + self.haze.extinction * self.haze.density(heights)[:, None], axis=0))
 
     def _phase(self, cosine: FloatArray) -> FloatArray:
         """Scattering towards the sensor relative to that at a right angle."""
@@ -127,13 +147,17 @@ def right_angle_phase(asymmetry: float) -> float:
     return float((1.0 - asymmetry**2) / (4.0 * PI * (1.0 + asymmetry**2) ** 1.5))
 
 
-def _mean_decay(x: FloatArray) -> FloatArray:
-    """(1 - e^-x) / x, 1 at 0."""
-    safe = np.where(np.abs(x) < _SMALL, 1.0, x)
-    return np.asarray(np.where(np.abs(x) < _SMALL, 1.0 - x / 2.0 + x * x / 6.0, -np.expm1(-safe) / safe))
+def _decay_of_mean(mean: FloatArray) -> FloatArray:
+    """x of which (1 - e^-x) / x is `mean`, by Newton's steps on its logarithm, which is nearly straight."""
+    x = np.where(mean > 1.0, -1.0 - 1.2 * np.log(np.maximum(mean, 1.0)), 2.0 * (1.0 - mean))
+    for _ in range(_STEPS):
+        value = mean_decay(x)
+        slope = (mean_decay(x + 1e-4) - mean_decay(x - 1e-4)) / 2e-4
+        x = x - (np.log(value) - np.log(mean)) * value / slope
+    return np.asarray(x)
 
 
 def _lag(depth: FloatArray, part: FloatArray) -> FloatArray:
     """(1 - t) / d - t with t = e^-d: the weight of the far end's source; 0 at 0 and at infinity."""
-    safe = np.where(depth < _SMALL, 1.0, depth)
-    return np.asarray(np.where(depth < _SMALL, depth / 2.0 - depth * depth / 3.0, -np.expm1(-safe) / safe - part))
+    safe = np.where(depth < SMALL, 1.0, depth)
+    return np.asarray(np.where(depth < SMALL, depth / 2.0 - depth * depth / 3.0, -np.expm1(-safe) / safe - part))

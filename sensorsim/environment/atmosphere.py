@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.environment.haze import MIXED, Haze
 from sensorsim.environment.humidity import vapour_density
 from sensorsim.errors import InputError
 from sensorsim.resources import assets_folder
@@ -33,13 +34,14 @@ class Transmittance:
     """Sum of weighted exponentials: tau(r) = sum of weight exp(-coefficient r) over a level path at the ground."""
 
     weight: FloatArray  # (k,) [-], sums to one
-    coefficient: FloatArray  # (k,) [m-1]
+    coefficient: FloatArray  # (k,) [m-1] but for haze
     inverse_scale_height: FloatArray  # (k,) [m-1] by which the coefficients fall off with height
-    scattered: FloatArray  # (k,) [-] share of each coefficient that is scattering
+    haze: Haze  # the same in all terms
+    scattered: FloatArray  # (k,) [-] share of each term's extinction, with haze, that is scattering
 
     def at(self, distance: FloatArray | float) -> FloatArray:
         """Transmittance [-] over distances [m], shape as given."""
-        depth = np.asarray(distance, dtype=np.float64)[..., None] * self.coefficient
+        depth = np.asarray(distance, dtype=np.float64)[..., None] * (self.coefficient + self.haze.extinction)
         return np.asarray(np.exp(-depth) @ self.weight, dtype=np.float64)
 
 
@@ -77,16 +79,30 @@ def band_transmittance(
     extinction = _KOSCHMIEDER / (visibility / METRES_PER_KILOMETRE) - table["haze"]["clear_air"]
     haze = extinction * np.interp(relative_humidity, table["haze"]["humidity"], haze_kind[band])
     rain = table["rain_factor"] * precipitation ** table["rain_power"]
-    coefficient = gas.sum(axis=0) + haze + rain
-    haze_height = METRES_PER_KILOMETRE * haze_kind["scale_height"]
-    decay = (_gas_decay(entry, air_temperature) * gas).sum(axis=0) + haze / haze_height
+    coefficient = gas.sum(axis=0) + rain
+    decay = (_gas_decay(entry, air_temperature) * gas).sum(axis=0)
+    below, above = _haze_decay(table["haze"], haze_kind, extinction)
     weight = np.array(entry["weight"])
     return Transmittance(
         weight=weight / weight.sum(),
         coefficient=coefficient / METRES_PER_KILOMETRE,
         inverse_scale_height=decay / np.maximum(coefficient, 1e-12),
-        scattered=entry["scattered"] * (haze + rain) / np.maximum(coefficient, 1e-12),
+        haze=Haze(extinction=float(haze) / METRES_PER_KILOMETRE, below=below, above=above),
+        scattered=entry["scattered"] * (haze + rain) / np.maximum(coefficient + haze, 1e-12),
     )
+
+
+def _haze_decay(table: dict[str, Any], kind: dict[str, Any], extinction: float) -> tuple[float, float]:
+    """Inverse scale heights [m-1] of haze below and above its mixed layer, by its extinction at 0.55 um [1/km]."""
+    if "scale_height" in kind:  # fog
+        inverse = 1.0 / (METRES_PER_KILOMETRE * kind["scale_height"])
+        return inverse, inverse
+    profile = table["profile"]
+    known = max(extinction, 1e-9)
+    first, second = (
+        float(np.interp(known, profile["ground"], np.array(profile[at]) / profile["ground"])) for at in ("one", "two")
+    )
+    return -float(np.log(first)) / MIXED, -float(np.log(second / first)) / MIXED
 
 
 def attenuation_coefficient(

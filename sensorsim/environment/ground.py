@@ -10,7 +10,8 @@ from sensorsim.constants import ZERO_CELSIUS
 # 0.40 to 0.95 [Oke1987].
 GROUND_ALBEDO = {"dry": 0.20, "wet": 0.14, "snow": 0.70}
 
-# Snow melts rather than warm: no ground under snow gets above this temperature [K] [Report1978] section 3.1.3.
+# Snow melts rather than warm: no ground under snow gets above this temperature [K] [Report1978] section 3.1.3. What it
+# takes to melt it is in the march of ground made of snow (thermal.melting).
 SNOW_MAXIMUM_TEMPERATURE = ZERO_CELSIUS
 
 

@@ -16,6 +16,7 @@ from sensorsim.environment.site import Site
 
 FloatArray = NDArray[np.float64]
 SEA_LEVEL_PRESSURE = 101325.0  # [Pa]
+SUN_RADIUS = 4.65e-3  # [rad] 695,700 km at 149.6 million km [Prsa2016]; the moon's is within 4 %
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

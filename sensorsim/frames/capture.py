@@ -119,6 +119,8 @@ def _air_settings(renderer: Renderer, picture: Picture) -> dict[str, JSON]:
         "weight": air.weight.tolist(),
         "coefficient_per_m": air.coefficient.tolist(),
         "inverse_scale_height_per_m": air.inverse_scale_height.tolist(),
+        "haze_per_m": air.haze.extinction,
+        "haze_decay_per_m": [air.haze.below, air.haze.above],
         "source_W_m-2_sr-1": air.source.tolist(),
     }
 

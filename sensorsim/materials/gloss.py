@@ -1,4 +1,4 @@
-"""Surfaces that mirror: emissivity in 8-14 um against the angle from the normal, from assets/materials/gloss.toml."""
+"""Surfaces that mirror, from assets/materials/gloss.toml: emissivity in 8-14 um, and facets in 0.8-1.1 um, by angle."""
 
 import tomllib
 from dataclasses import dataclass
@@ -10,10 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import InputError
+from sensorsim.materials.facets import ANGLE_ENTRIES, lobe_variance
 from sensorsim.resources import assets_folder
 
 FloatArray = NDArray[np.float64]
-ANGLE_ENTRIES = 129  # equally spaced in the cosine of the angle from the normal, 0 to 1
+_WAVE_STEP = 5e-4  # [-] of the variance of slopes: a tenth of a metre per second
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NearInfraredGloss:
+    """What the facets of one kind mirror in 0.8-1.1 um."""
+
+    highest: float  # reflectance of a facet along its normal [-]
+    share: float  # of the surface's reflectance that is mirrored and not scattered, at most [-]
+    rise: FloatArray  # (ANGLE_ENTRIES,) [-] of a facet's reflectance, 0 along the normal, at cosines from 0 to 1
+
+    def mirrored(self, reflectance: FloatArray) -> FloatArray:
+        """Reflectance of a facet along its normal [-], of surfaces of a reflectance in band [-]."""
+        return np.asarray(np.minimum(self.share * reflectance, self.highest))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -25,6 +39,15 @@ class Gloss:
     normal_emissivity: float | None  # [-], None where the material's own holds
     rise: FloatArray  # (ANGLE_ENTRIES,) [-] of the reflectance, 0 along the normal, at cosines from 0 to 1
     spread: float  # [deg] half width of the lobe
+    waves: tuple[float, float] | None  # variance of slopes in 0.8-1.1 um: calm [-], and by wind [s m-1]
+    nir: NearInfraredGloss
+
+    def slope_variance(self, wind_speed: float) -> float:
+        """Variance of the facets' slopes [-] in 0.8-1.1 um, in a wind [m s-1]; of waves [CoxMunk1954] in fine steps."""
+        if self.waves is None:
+            return lobe_variance(self.spread)
+        calm, per_wind = self.waves
+        return _WAVE_STEP * round((calm + per_wind * wind_speed) / _WAVE_STEP)
 
     def emissivity(self, normal_emissivity: FloatArray, cosine: FloatArray) -> FloatArray:
         """Emissivity [-] at cosines of the angle from the normal, of surfaces that have that along it."""
@@ -44,11 +67,45 @@ def read_gloss(path: Path, entry: dict[str, Any]) -> Gloss:
     name = f"gloss {entry.get('name')!r}"
     if ("index" in entry) == ("exponent" in entry):
         raise InputError(path, name, None, "needs an index or an exponent", "give one of them")
-    cosine = np.linspace(0.0, 1.0, ANGLE_ENTRIES)
-    rise = _fresnel_rise(np.array(entry["index"]), cosine) if "index" in entry else _schlick_rise(path, name, entry)
+    if "index" in entry:
+        rows = np.array(entry["index"])
+        index = (rows[:, 1:2] + 1j * rows[:, 2:3]).astype(np.complex128)
+        rise = _rise(_mean_over(rows[:, 0], fresnel_reflectance(index, _cosines())))
+    else:
+        rise = _schlick_rise(path, name, entry)
     normal = _number(path, name, entry, "normal", 1.0) if "normal" in entry else None
     spread = _number(path, name, entry, "spread", 60.0)
-    return Gloss(name=entry["name"], codes=tuple(entry["codes"]), normal_emissivity=normal, rise=rise, spread=spread)
+    return Gloss(
+        name=entry["name"], codes=tuple(entry["codes"]), normal_emissivity=normal, rise=rise, spread=spread,
+        waves=_read_waves(path, name, entry), nir=_read_nir(path, f"{name} nir", entry.get("nir", {})),
+    )  # fmt: skip
+
+
+def _read_nir(path: Path, name: str, entry: dict[str, Any]) -> NearInfraredGloss:
+    """The [gloss.nir] of an entry."""
+    share, faces = _number(path, name, entry, "share", 1.0), entry.get("faces", 1)
+    if ("index" in entry) == ("exponent" in entry) or faces not in (1, 2):
+        raise InputError(path, name, faces, "needs an index or an exponent, of 1 or 2 faces", "give one of them")
+    if "exponent" in entry:
+        return NearInfraredGloss(highest=1.0, share=share, rise=_schlick_rise(path, name, entry))
+    rows = np.array(entry["index"], dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[0] < 2 or rows.shape[1] != 2 or not (np.isfinite(rows) & (rows > 0.0)).all():
+        raise InputError(path, f"{name} index", entry["index"], "no rows of wavelength and index", "give two or more")
+    index = rows[:, 1:].astype(np.complex128)
+    mean = _mean_over(rows[:, 0], fresnel_reflectance(index, _cosines()))
+    if faces == 2:  # of what passes the first, the second sends back as much, and so on to and fro
+        mean = 2.0 * mean / (1.0 + mean)
+    return NearInfraredGloss(highest=float(mean[-1]), share=share, rise=_rise(mean))
+
+
+def _read_waves(path: Path, name: str, entry: dict[str, Any]) -> tuple[float, float] | None:
+    held = entry.get("waves")
+    if held is None:
+        return None
+    calm, per_wind = (held.get(key) for key in ("calm", "per_wind"))
+    if not all(type(value) in (int, float) and 0.0 < value < 0.1 for value in (calm, per_wind)):
+        raise InputError(path, f"{name} waves", held, "out of range", "give calm and per_wind between 0 and 0.1")
+    return float(calm), float(per_wind)
 
 
 def fresnel_reflectance(index: NDArray[np.complex128], cosine: FloatArray) -> FloatArray:
@@ -62,12 +119,18 @@ def fresnel_reflectance(index: NDArray[np.complex128], cosine: FloatArray) -> Fl
     return np.asarray(0.5 * (across + along))
 
 
-def _fresnel_rise(rows: FloatArray, cosine: FloatArray) -> FloatArray:
-    """Rise of the reflectance from the normal on, mean over wavelength."""
-    wavelength, index = rows[:, 0], rows[:, 1] + 1j * rows[:, 2]
-    reflectance = fresnel_reflectance(index[:, None], np.maximum(cosine, 1e-9))
-    mean = np.trapezoid(reflectance, wavelength, axis=0) / (wavelength[-1] - wavelength[0])
-    return np.asarray((mean - mean[-1]) / (1.0 - mean[-1]))
+def _cosines() -> FloatArray:
+    return np.maximum(np.linspace(0.0, 1.0, ANGLE_ENTRIES), 1e-9)
+
+
+def _mean_over(wavelength: FloatArray, reflectance: FloatArray) -> FloatArray:
+    """Mean (ANGLE_ENTRIES,) of rows over wavelength."""
+    return np.asarray(np.trapezoid(reflectance, wavelength, axis=0) / (wavelength[-1] - wavelength[0]))
+
+
+def _rise(reflectance: FloatArray) -> FloatArray:
+    """Rise of a reflectance from the normal on, 1 where it is 1."""
+    return np.asarray((reflectance - reflectance[-1]) / (1.0 - reflectance[-1]))
 
 
 def _schlick_rise(path: Path, name: str, entry: dict[str, Any]) -> FloatArray:

@@ -60,6 +60,7 @@ def air_path(
         weight=found.weight,
         coefficient=found.coefficient,
         inverse_scale_height=found.inverse_scale_height,
+        haze=found.haze,
         source=emitted * (1.0 - found.scattered) * glow + found.scattered * around,
         source_decay=0.0 if table is None else source_decay(table, sample.air_temperature),
         beam_source=found.scattered * beam * right_angle_phase(_HAZE_ASYMMETRY),
@@ -75,6 +76,7 @@ def source_decay(table: BandTable, air_temperature: float) -> float:
 
 def air_values(air: AirPath, camera_height: float, sun_direction: FloatArray) -> Mapping[str, npt.ArrayLike]:
     """Fields of the `Air` block for a camera's height [m]."""
+    air = air.seen_from(camera_height)
     source, slope = air.source_at(camera_height)
     terms = {
         "extinction": air.coefficient * np.exp(-camera_height * air.inverse_scale_height),

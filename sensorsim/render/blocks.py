@@ -27,6 +27,7 @@ ILLUMINATION = UniformBlock(
         Field("beam", "float", "irradiance normal to the sun [W m-2]"),
         Field("sky_radiance", "float", "of the sky, mean over a horizontal surface's hemisphere [W m-2 sr-1]"),
         Field("ground_radiance", "float", "of the ground plane [W m-2 sr-1]"),
+        Field("mirrors", "float", "1 where glossy surfaces mirror in reflective bands, 0 where they are matt"),
     ),
 )
 

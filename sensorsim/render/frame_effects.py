@@ -20,6 +20,7 @@ from sensorsim.effects import (
     Look,
     Mirrors,
     applicable,
+    brightest_glint,
     decide,
     emissive_bounds,
     reflective_bounds,
@@ -85,21 +86,17 @@ def frame_ledger(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
             tolerance=_noise_of(sensor)[0], unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
-    return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table, illumination)))
+    return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table)))
 
 
-def _chain_rows(
-    choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None, illumination: Illumination
-) -> tuple[LedgerRow, ...]:
+def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None) -> tuple[LedgerRow, ...]:
     """Rows of the parts of a sensor's chain; none for an ideal sensor."""
     parts, (_, state) = sensor_parts(sensor), _noise_of(sensor)
     if state is None:
         return ()
     if table is None:
-        glow = illumination.glow
         lit = (look.beam + 4.0 * float(look.quadrant.sum())) / PI + look.ground_radiance
-        brightest = lit + look.sky_range[1] + look.air.brightest
-        brightest += 0.0 if glow is None else float(glow.gradation.max() * glow.indicatrix.max())
+        brightest = lit + look.sky_range[1] + look.air.brightest + brightest_glint(look)
     else:
         brightest = float(table.radiance[-1])  # a frame beyond is refused
     bounds = sensor_bounds(parts, state, brightest=brightest, pixels=look.pixels)
@@ -157,7 +154,7 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
         beam=illumination.beam,
         quadrant=np.asarray(illumination.quadrant),
         sky_radiance=illumination.sky_radiance,
-        sky_range=(float(sky.min()), float(sky.max())),
+        sky_range=(float(sky.min()), float(sky.max()) + illumination.brightest_glow),
         ground_radiance=illumination.ground_radiance,
         air=AirBefore(
             path=illumination.air,
@@ -183,7 +180,7 @@ def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:
 def _all_mirrors(assignment: Assignment) -> tuple[NDArray[np.bool_], Mirrors]:
     """Which surfaces (s,) of a scene mirror, and those; the same in each of its frames."""
     matt = assignment.emissivity
-    record, rise = gloss_records(surface_codes(assignment), matt), rise_table()
+    record, rise = gloss_records(surface_codes(assignment), matt, assignment.nir_reflectance), rise_table()
     glossy = record[:, 0] >= 0.0
     kind, along_normal = record[glossy, 0].astype(np.int64), record[glossy, 1]
     return glossy, Mirrors(

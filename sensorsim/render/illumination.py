@@ -23,7 +23,7 @@ from sensorsim.environment import (
 from sensorsim.environment.sky_glow import INDICATRIX_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.air import DEFAULT_ATMOSPHERE, air_path
-from sensorsim.render.mirror import mirror_table
+from sensorsim.render.mirror import facet_table, glow_mirror_table, mirror_table, rise_table
 from sensorsim.sensor import Sensor
 from sensorsim.tables import LookupTable
 
@@ -43,6 +43,7 @@ class Illumination:
     ground_radiance: float
     air: AirPath
     glow: SkyGlow | None = None  # what the sky sends besides `sky`, leaning to the sun
+    wind_speed: float = 0.0  # [m s-1] that raises waves
 
     @property
     def sky_radiance(self) -> float:
@@ -51,6 +52,11 @@ class Illumination:
         even = float(np.trapezoid(self.sky * sine, sine) / np.trapezoid(sine, sine))
         return even if self.glow is None else even + self.glow.irradiance / PI
 
+    @property
+    def brightest_glow(self) -> float:
+        """Most that the sky sends besides `sky`."""
+        return 0.0 if self.glow is None else float(self.glow.gradation.max() * self.glow.indicatrix.max())
+
     def sky_table(self) -> LookupTable:
         """Sky radiance against the sine of the elevation, for the background.
 
@@ -58,9 +64,12 @@ class Illumination:
         """
         return _table("sky_radiance", "Radiance", 0.0, self.sky)
 
-    def mirror_table(self) -> FloatArray:
-        """What each kind of gloss shows, (kinds, MIRROR_ENTRIES), by the upward part of the mirror direction."""
-        return mirror_table(self.sky, self.ground_radiance)
+    def mirror_tables(self, *, emissive: bool) -> dict[str, FloatArray]:
+        """How the reflectance of each kind of gloss rises with the angle, and what it shows: tables of `mirror`."""
+        if emissive:
+            return {"rise_table": rise_table(), "mirror_table": mirror_table(self.sky, self.ground_radiance)}
+        shown = glow_mirror_table(self.sky, self.ground_radiance, self.glow, self.wind_speed)
+        return {"rise_table": facet_table(self.wind_speed), "mirror_table": shown}
 
     def glow_tables(self) -> tuple[LookupTable, LookupTable]:
         """Gradation of the sky's glow by the sine of the elevation, its indicatrix by the cosine from the sun."""
@@ -136,6 +145,7 @@ def _reflective(sample: EnvironmentSample) -> Illumination:
         ground_radiance=sample.ground_albedo * received / PI,
         air=clear_path(),
         glow=clear_glow(clear, light, SKY_ENTRIES) if lit else None,
+        wind_speed=sample.wind_speed,
     )
 
 

@@ -1,16 +1,19 @@
 """What glossy surfaces show: sky and ground along the mirror direction, seen through the lobe of each kind of gloss.
 
-The surroundings depend on the elevation alone, so one row per kind holds their radiance against the upward component
-of the mirror direction. Buildings do not show in each other.
+The surroundings depend on the elevation alone, and in reflective bands on the angle from the sun besides, so that a row
+per kind holds their radiance against the upward component of the mirror direction, and one its share by that angle.
+Buildings do not show in each other.
 """
 
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from sensorsim.materials.gloss import ANGLE_ENTRIES, load_gloss
+from sensorsim.environment import SUN_RADIUS, SkyGlow
+from sensorsim.materials.facets import ANGLE_ENTRIES, facets, lobe_spread
+from sensorsim.materials.gloss import load_gloss
 
 FloatArray = NDArray[np.float64]
 
@@ -19,8 +22,8 @@ _RINGS, _SECTORS = 24, 32  # of a lobe
 _FARTHEST = 3.0  # rings reach to this many half widths
 
 
-def gloss_records(codes: NDArray[np.int64], emissivity: FloatArray) -> FloatArray:
-    """Records (s, 4) of surfaces by their material's code: kind of gloss or -1, emissivity along the normal."""
+def gloss_records(codes: NDArray[np.int64], emissivity: FloatArray, nir_reflectance: FloatArray) -> FloatArray:
+    """Records (s, 4) by code: kind of gloss or -1, emissivity and a facet's reflectance along the normal, a spare."""
     record = np.zeros((codes.size, 4))
     record[:, 0] = -1.0
     record[:, 1] = emissivity
@@ -29,17 +32,37 @@ def gloss_records(codes: NDArray[np.int64], emissivity: FloatArray) -> FloatArra
         record[held, 0] = row
         if gloss.normal_emissivity is not None:
             record[held, 1] = gloss.normal_emissivity
+        record[held, 2] = gloss.nir.mirrored(nir_reflectance[held])
     return record
 
 
 def rise_table() -> FloatArray:
-    """Rise of the reflectance (kinds, ANGLE_ENTRIES) against the cosine from the normal."""
+    """Rise of the reflectance (kinds, ANGLE_ENTRIES) against the cosine from the normal, in thermal bands."""
     return np.stack([gloss.rise for gloss in load_gloss()])
 
 
+def facet_table(wind_speed: float) -> FloatArray:
+    """Of each kind's facets in 0.8-1.1 um, in a wind [m s-1]: rows (3 kinds, ANGLE_ENTRIES + 1) against the cosine.
+
+    First the rise of the surface's reflectance, with 1 - its mean over a hemisphere's light; then the share of facets
+    seen, with the variance of their slopes; then the rise of a single facet's reflectance.
+    """
+    kinds, cosine = load_gloss(), np.linspace(0.0, 1.0, ANGLE_ENTRIES)
+    variances = [gloss.slope_variance(wind_speed) for gloss in kinds]
+    found = [facets(variance) for variance in variances]
+    rises = [held.mean(gloss.nir.rise) for held, gloss in zip(found, kinds, strict=True)]
+    scattered = [1.0 - 2.0 * float(np.trapezoid(rise * cosine, cosine)) for rise in rises]
+    whole = [np.append(rise, last) for rise, last in zip(rises, scattered, strict=True)]
+    seen = [np.append(held.seen, last) for held, last in zip(found, variances, strict=True)]
+    return np.stack([*whole, *seen, *(np.append(gloss.nir.rise, 0.0) for gloss in kinds)])
+
+
 def mirror_glsl() -> str:
-    """Sizes of both tables for the shader."""
-    return f"const int ANGLE_ENTRIES = {ANGLE_ENTRIES};\nconst int MIRROR_ENTRIES = {MIRROR_ENTRIES};\n"
+    """Sizes of the tables for the shader, and what the sun's disc adds to the variance of slopes along its image."""
+    return (
+        f"const int ANGLE_ENTRIES = {ANGLE_ENTRIES};\nconst int MIRROR_ENTRIES = {MIRROR_ENTRIES};\n"
+        f"const int GLOSS_KINDS = {len(load_gloss())};\nconst float DISC_VARIANCE = {0.25 * SUN_RADIUS**2};\n"
+    )
 
 
 def mirror_table(sky: FloatArray, ground_radiance: float) -> FloatArray:
@@ -47,12 +70,33 @@ def mirror_table(sky: FloatArray, ground_radiance: float) -> FloatArray:
 
     sky (n,): radiance at elevations whose sine goes evenly from 0 to 1; below the horizon is the ground plane.
     """
-    up = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)
-    around = np.where(up >= 0.0, np.interp(up, np.linspace(0.0, 1.0, sky.size), sky), ground_radiance)
+    around = _all_around(sky, ground_radiance)
     return np.stack([_lobe(gloss.spread) @ around for gloss in load_gloss()])
 
 
-@cache
+def glow_mirror_table(sky: FloatArray, ground_radiance: float, glow: SkyGlow | None, wind_speed: float) -> FloatArray:
+    """The same in 0.8-1.1 um, in a wind [m s-1], with what leans to the sun (3 kinds, MIRROR_ENTRIES).
+
+    The rows are of sky and ground, then the glow's gradation [W m-2 sr-1] by the upward component of the mirror
+    direction, then its indicatrix [-] by the cosine of the mirror direction from the sun; lobes blur each alone.
+    """
+    lobes = [_lobe(lobe_spread(gloss.slope_variance(wind_speed))) for gloss in load_gloss()]
+    shown = [_all_around(sky, ground_radiance)]
+    if glow is None:
+        shown += [np.zeros(MIRROR_ENTRIES)] * 2
+    else:
+        cosine = np.linspace(-1.0, 1.0, glow.indicatrix.size)
+        indicatrix = np.interp(np.linspace(-1.0, 1.0, MIRROR_ENTRIES), cosine, glow.indicatrix)
+        shown += [_all_around(glow.gradation, 0.0), indicatrix]
+    return np.stack([lobe @ around for around in shown for lobe in lobes])
+
+
+def _all_around(sky: FloatArray, below: float) -> FloatArray:
+    up = np.linspace(-1.0, 1.0, MIRROR_ENTRIES)
+    return np.where(up >= 0.0, np.interp(up, np.linspace(0.0, 1.0, sky.size), sky), below)
+
+
+@lru_cache(maxsize=64)
 def _lobe(spread: float) -> csr_array:
     """Shares (MIRROR_ENTRIES, MIRROR_ENTRIES) that a lobe around each mirror direction has in each elevation."""
     if spread == 0.0:

@@ -15,7 +15,7 @@ from sensorsim.gpu import float_table, update_table
 from sensorsim.radiometry import BandTable
 from sensorsim.render.blocks import ILLUMINATION
 from sensorsim.render.illumination import Illumination, dark
-from sensorsim.render.mirror import mirror_glsl, rise_table
+from sensorsim.render.mirror import mirror_glsl
 from sensorsim.render.passes import TEXTURE_UNITS
 from sensorsim.render.surface_table import set_offsets, surface_table
 from sensorsim.render.world import World
@@ -27,11 +27,11 @@ class MomentTables:
     """Textures and light of one world in one band; `number` counts the moments that they have held."""
 
     def __init__(self, ctx: moderngl.Context, world: World, band_table: BandTable | None) -> None:
-        self.world, self.number = world, 0
+        self.world, self.number, self.emissive = world, 0, band_table is not None
         self.time_of_day = -1.0  # [s] that the tables of walls are of
         self.illumination: Illumination | None = None
         self.uploaded = 0  # [byte] since the beginning
-        self.mirrors = False  # whether a frame has called for what surfaces mirror
+        self.mirrors = False  # whether the last frame has called for what surfaces mirror
         surfaces = world.scene.surfaces
         self.records = surface_table(surfaces.normal, surfaces.feature, world.assignment, world.tables.orientations)
         band, skies = _band_lookup(band_table), (dark().sky_table(), *dark().glow_tables())
@@ -39,8 +39,7 @@ class MomentTables:
             "surface_table": self.records,
             "band_radiance_table": band.texels,
             **{f"{table.name}_table": table.texels for table in skies},
-            "rise_table": rise_table(),
-            "mirror_table": dark().mirror_table(),
+            **dark().mirror_tables(emissive=self.emissive),
             **_known(shade_texels(world.tables, 0.0)),
         }
         self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
@@ -62,9 +61,8 @@ class MomentTables:
 
     def set(self, time_of_day: float, illumination: Illumination, plan: EffectPlan) -> None:
         """Upload what a time of the image day [s] and its surroundings have changed, if the plan calls for it."""
-        mirrors = plan.has("specular") and not self.mirrors
-        if mirrors:
-            self.mirrors, self.illumination = True, None
+        if plan.has("specular") != self.mirrors:
+            self.mirrors, self.illumination = not self.mirrors, None
         if time_of_day == self.time_of_day and illumination is self.illumination:
             return
         if time_of_day != self.time_of_day and plan.has("temperature"):
@@ -86,7 +84,8 @@ class MomentTables:
         for table in (illumination.sky_table(), *illumination.glow_tables()):
             self._update(f"{table.name}_table", table.texels)
         if self.mirrors:
-            self._update("mirror_table", illumination.mirror_table())
+            for name, texels in illumination.mirror_tables(emissive=self.emissive).items():
+                self._update(name, texels)
         self.block.write(
             ILLUMINATION.pack(
                 quadrant=illumination.quadrant,
@@ -94,6 +93,7 @@ class MomentTables:
                 beam=illumination.beam,
                 sky_radiance=illumination.sky_radiance,
                 ground_radiance=illumination.ground_radiance,
+                mirrors=float(self.mirrors),
             )
         )
 

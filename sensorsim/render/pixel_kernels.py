@@ -12,6 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.render.air_kernel import through_air
+from sensorsim.render.glossy_kernel import between, glossy
 
 Array = NDArray[Any]
 _NONE, _HALF, _ONE, _TWO = np.float32(0.0), np.float32(0.5), np.float32(1.0), np.float32(2.0)
@@ -43,7 +44,8 @@ def light_rows(
     numbers (height, width) from the lowest row up, of surfaces plus one; ends: of their runs; rays (3, 3): through the
     lower left corner, along width and height. planes, sent: of the scene's surfaces and of solids that follow on them.
     gloss (s,): kind or -1. around: sky, gradation, indicatrix, rise (kinds, n), mirror (kinds, m), ground's radiance
-    (1,). air: terms and direction of the sun with the asymmetry, see `through_air`.
+    (1,), in reflective bands with the beam (2,) and tables as `glossy` has them. air: terms and direction of the sun
+    with the asymmetry, see `through_air`.
     """
     height, width = numbers.shape
     source, away, scratch = np.zeros(width, np.float32), np.zeros(width, np.float32), np.zeros((4, width), np.float32)
@@ -65,22 +67,12 @@ def light_rows(
                 _surface(start, step, eye, plane, begin, end, away)
                 source[begin:end] = sends[0]
                 if which == 0 and gloss[place] >= 0:
-                    rise, mirror = around[3][gloss[place]], around[4][gloss[place]]
-                    _mirror(ray, along, plane, sends, rise, mirror, begin, end, source)
+                    _gleam(ray, along, plane, sends, gloss[place], around, air[1], begin, end, source)
             begin, run = end, run + 1
         if clear:
             light[y] = source
         else:
             through_air(ray, along, source, away, air[0], air[1], scratch, light[y])
-
-
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _between(table: Array, share: Any) -> Any:
-    """A table of equal steps at a share of its length from 0 to 1, its end values beyond."""
-    last = np.uint32(table.size - 1)
-    place = min(max(share, _NONE), _ONE) * np.float32(last)
-    low = min(np.uint32(place), np.uint32(last - np.uint32(1)))
-    return table[low] + (place - np.float32(low)) * (table[low + np.uint32(1)] - table[low])
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
@@ -96,7 +88,7 @@ def _beyond(
         east, north, up = ray[0] + place * along[0], ray[1] + place * along[1], ray[2] + place * along[2]
         below = up < _NONE
         sine = up / np.sqrt(east * east + north * north + up * up)
-        source[x] = ground[0] if below else _between(sky, sine)
+        source[x] = ground[0] if below else between(sky, sine)
         away[x] = min(above / (-up if below else _ONE), _FARTHEST) if below else _NONE
     if gradation.size == 0:
         return
@@ -106,7 +98,7 @@ def _beyond(
         if up >= _NONE:
             length = np.sqrt(east * east + north * north + up * up)
             cosine = (east * towards[0] + north * towards[1] + up * towards[2]) / length
-            source[x] += _between(gradation, up / length) * _between(indicatrix, _HALF + _HALF * cosine)
+            source[x] += between(gradation, up / length) * between(indicatrix, _HALF + _HALF * cosine)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
@@ -123,6 +115,19 @@ def _surface(start: Array, step: Array, eye: Array, plane: Array, begin: int, en
         away[x] = min(max(off / (facing + x * slope), nearest), farthest)
 
 
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gleam(
+    ray: Array, along: Array, plane: Array, sent: Array, kind: int, around: tuple[Array, ...], sun: Array, begin: int,
+    end: int, source: Array,
+) -> None:  # fmt: skip
+    """A glossy surface, by the band."""
+    _, _, _, rise, mirror, ground = around
+    if ground.size == 1:
+        _mirror(ray, along, plane, sent, rise[kind], mirror[kind], begin, end, source)
+    else:
+        glossy(ray, along, plane, sent, kind, (rise, mirror), sun, ground[1], begin, end, source)
+
+
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def _mirror(
     ray: Array, along: Array, plane: Array, sent: Array, rise: Array, mirror: Array, begin: int, end: int,
@@ -136,5 +141,5 @@ def _mirror(
         length = np.sqrt(east * east + north * north + up * up)
         cosine = (east * normal[0] + north * normal[1] + up * normal[2]) / length
         outward = up / length - _TWO * cosine * normal[2]
-        mirrored = _between(mirror, _HALF + _HALF * outward)
-        source[x] = mirrored + emissivity * (_ONE - _between(rise, -cosine)) * (black - mirrored)
+        mirrored = between(mirror, _HALF + _HALF * outward)
+        source[x] = mirrored + emissivity * (_ONE - between(rise, -cosine)) * (black - mirrored)

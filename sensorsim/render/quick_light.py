@@ -9,7 +9,6 @@ from sensorsim.radiometry import BandTable
 from sensorsim.render.air_kernel import GENTLE
 from sensorsim.render.camera import Camera
 from sensorsim.render.illumination import Illumination
-from sensorsim.render.mirror import rise_table
 from sensorsim.render.pixel_kernels import find_runs, light_rows
 from sensorsim.render.planes import Planes, triangle_planes
 from sensorsim.render.solids import Solids
@@ -31,10 +30,9 @@ class QuickLight:
     ) -> None:  # fmt: skip
         self.planes, self.each = planes, each
         self.surfaces = SurfaceLight(world, rows, band_table)
-        self.gloss = rows.gloss if band_table is not None else np.full(rows.gloss.size, -1, np.int64)
+        self.gloss, self.emissive = rows.gloss, band_table is not None
         up = world.scene.mesh.position[:, 2]
         self.heights = np.array([up.min(), up.max(), 0.0])  # [m] between which all lies, the endless ground too
-        self.rise = rise_table().astype(np.float32)
         self.ends = np.zeros((size[1], size[0]), np.int32)
         self.around: tuple[NDArray[np.float32], ...] = ()
         self.lit: Illumination | None = None
@@ -69,21 +67,26 @@ class QuickLight:
         if illumination is self.lit:
             return
         self.lit, glow = illumination, illumination.glow
-        none = np.zeros(0)
-        tables = (
+        none, lone = np.zeros(0), np.zeros((1, 2))
+        tables = {"rise_table": lone, "mirror_table": lone}
+        if np.any(self.gloss >= 0):
+            tables = illumination.mirror_tables(emissive=self.emissive)
+        light = [illumination.ground_radiance] + ([] if self.emissive else [illumination.beam])
+        around = (
             illumination.sky,
             none if glow is None else glow.gradation,
             none if glow is None else glow.indicatrix,
-            self.rise,
-            illumination.mirror_table() if np.any(self.gloss >= 0) else np.zeros((1, 2)),
-            np.array([illumination.ground_radiance]),
+            tables["rise_table"],
+            tables["mirror_table"],
+            np.array(light),
         )
-        self.around = tuple(np.ascontiguousarray(table, np.float32) for table in tables)
+        self.around = tuple(np.ascontiguousarray(table, np.float32) for table in around)
 
 
 def _air_terms(illumination: Illumination, camera: Camera, most: float) -> tuple[Single, NDArray[np.float64]]:
     """Terms (k, 7) of the air for rises of `most` [m], and direction of the sun with the asymmetry (4,)."""
-    air, height = illumination.air, float(camera.position[2])
+    height = float(camera.position[2])
+    air = illumination.air.seen_from(height)
     source, slope = air.source_at(height)
     extinction = air.coefficient * np.exp(-height * air.inverse_scale_height)
     gentle = np.abs(air.inverse_scale_height) * most < GENTLE

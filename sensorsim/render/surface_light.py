@@ -1,15 +1,18 @@
 """What whole surfaces send at a moment, on the processor: temperature and radiance of those that a frame sees.
 
 What does not vary within a surface is computed once for each moment, and only for surfaces that are in a picture: the
-cost follows what is visible. The equations are those of shaders/radiance/emitted.glsl and reflected.glsl.
+cost follows what is visible. The equations are those of shaders/radiance/emitted.glsl, reflected.glsl and
+glossy.glsl.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import PI
+from sensorsim.materials.facets import ANGLE_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.illumination import Illumination
+from sensorsim.render.mirror import facet_table
 from sensorsim.render.solids import Solids
 from sensorsim.render.surface_table import SurfaceRows
 from sensorsim.render.world import World
@@ -25,7 +28,8 @@ class SurfaceLight:
     def __init__(self, world: World, rows: SurfaceRows, band_table: BandTable | None) -> None:
         self.world, self.rows, self.band_table = world, rows, band_table
         count = rows.wall_type.size
-        self.sent = np.zeros((count, 2), np.float32)  # matt: radiance; glossy: black body's; emissivity of the glossy
+        # Matt: radiance. Glossy: black body's and emissivity; in reflective bands what scatters, a facet's reflectance.
+        self.sent = np.zeros((count, 2), np.float32)
         self.known = np.zeros(count, np.bool_)
         self.moment: tuple[float, Illumination] | None = None
 
@@ -55,6 +59,9 @@ class SurfaceLight:
         normal, sent = rows.normal[row], np.zeros((row.size, 2))
         if self.band_table is None:
             sent[:, 0] = reflected(illumination, rows.nir_reflectance[row], normal, rows.quarters[row])
+            held = row[rows.gloss[row] >= 0]
+            if held.size:
+                sent[rows.gloss[row] >= 0] = np.stack([scattered(illumination, rows, held), rows.facet[held]], axis=1)
             return sent
         black = self.band_table.radiance_at(self._temperature(row, time_of_day))
         glossy = rows.gloss[row] >= 0
@@ -84,5 +91,21 @@ def matt(around: Illumination, black: FloatArray, emissivity: FloatArray, normal
 def reflected(around: Illumination, reflectance: FloatArray, normal: FloatArray, quarters: FloatArray) -> FloatArray:
     """Radiance of Lambertian surfaces in a reflective band: direct sun, four quarters of the sky, sunlit ground."""
     direct = around.beam * np.maximum(normal @ around.sun_direction, 0.0)
+    return np.asarray(reflectance * (direct + diffuse(around, normal, quarters)) / PI)
+
+
+def diffuse(around: Illumination, normal: FloatArray, quarters: FloatArray) -> FloatArray:
+    """Irradiance of surfaces by four quarters of the sky and the sunlit ground [W m-2]."""
     from_ground = PI * around.ground_radiance * 0.5 * (1.0 - normal[:, 2])
-    return np.asarray(reflectance * (direct + 4.0 * (quarters @ around.quadrant) + from_ground) / PI)
+    return np.asarray(4.0 * (quarters @ around.quadrant) + from_ground)
+
+
+def scattered(around: Illumination, rows: SurfaceRows, held: NDArray[np.int64]) -> FloatArray:
+    """Radiance that glossy surfaces scatter from below their facets, seen along the normal."""
+    table, kinds, cosine = facet_table(around.wind_speed), rows.gloss[held], np.linspace(0.0, 1.0, ANGLE_ENTRIES)
+    normal = rows.normal[held]
+    sun = np.maximum(normal @ around.sun_direction, 0.0)
+    rise = np.array([np.interp(angle, cosine, table[kind, :-1]) for angle, kind in zip(sun, kinds, strict=True)])
+    direct = around.beam * sun * (1.0 - rise) / table[kinds, -1]
+    share = rows.nir_reflectance[held] - rows.facet[held]
+    return np.asarray(share * (direct + diffuse(around, normal, rows.quarters[held])) / PI)

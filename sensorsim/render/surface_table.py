@@ -32,6 +32,7 @@ class SurfaceRows:
     nir_reflectance: FloatArray  # (s,)
     gloss: NDArray[np.int64]  # (s,) kind of gloss or -1
     normal_emissivity: FloatArray  # (s,)
+    facet: FloatArray  # (s,) reflectance of a facet along the normal in 0.8-1.1 um
 
 
 def surface_table(
@@ -50,7 +51,7 @@ def surface_table(
     record[:, 3] = quadrant_view_factors(normal)
     record[:, 4, 0] = assignment.nir_reflectance
     record[:, 4, 1] = feature
-    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity)
+    record[:, 5] = gloss_records(surface_codes(assignment), assignment.emissivity, assignment.nir_reflectance)
     rows = -(-count // SURFACES_PER_ROW)
     columns = SURFACES_PER_ROW if rows > 1 else count
     padded = np.zeros((rows * columns, SURFACE_TEXELS, 4), dtype=np.float32)
@@ -72,6 +73,7 @@ def surface_rows(records: NDArray[np.float32], count: int) -> SurfaceRows:
         nir_reflectance=row[:, 4, 0].copy(),
         gloss=row[:, 5, 0].astype(np.int64),
         normal_emissivity=row[:, 5, 1].copy(),
+        facet=row[:, 5, 2].copy(),
     )
 
 

@@ -1,7 +1,7 @@
 """The programs that draw surfaces and background: one for each set of effects that changes what is compiled.
 
-What costs a multiplication has no program of its own: a sun that is left out is a beam of zero, and tables without
-lobes have a number of lobes of zero.
+What costs a multiplication has no program of its own: a sun that is left out is a beam of zero, mirrors in reflective
+bands are a number of the light, and tables without lobes have a number of lobes of zero.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ def surface_defines(plan: EffectPlan, *, emissive: bool) -> Defines:
     return {
         "EMISSIVE": int(emissive),
         "TEMPERATURE": int(emissive or plan.has("temperature")),
-        "MIRRORED": int(emissive and plan.has("reflected_sky")) * (1 + int(plan.has("specular"))),
+        "MIRRORED": int(plan.has("reflected_sky")) * (1 + int(plan.has("specular"))) if emissive else 2,
         "PATH": int(plan.has("atmosphere")),
     }
 

@@ -50,19 +50,8 @@ def bake_tables(
     own = settings.lead_in_days is None
     begin = lead_in_of(ground, environment, own=own)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
-    record = kept_samples(environment, settings)
-    sources = _sources(environment, settings, record, plan) if wants_lobes(settings, scope, plan) else None
-    bake = _Bake(
-        environment=environment,
-        exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
-        settings=settings,
-        plan=plan,
-        scope=scope,
-        wall_types=tuple(wall_types),
-        record=record,
-        sources=sources,
-        facing=None if sources is None else facing_lobes(sources, scope.solved),
-    )
+    bake = _prepare(environment, wall_types, soil, settings, plan, scope)
+    record = bake.record
     rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
     return ShadeTables(
         day=environment.image_start.date(),
@@ -164,6 +153,26 @@ class _Bake:
         return replace(fitted, coefficients=coefficients)
 
 
+def _prepare(
+    environment: Environment, wall_types: Sequence[WallType], soil: FloatArray, settings: BakeSettings,
+    plan: EffectPlan, scope: Scope,
+) -> _Bake:  # fmt: skip
+    """What all wall types of a bake share, over a ground plane of temperature `soil` (t,) [K]."""
+    record, lit = kept_samples(environment, settings), wants_lobes(settings, scope, plan)
+    sources = lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan) if lit else None
+    return _Bake(
+        environment=environment,
+        exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
+        settings=settings,
+        plan=plan,
+        scope=scope,
+        wall_types=tuple(wall_types),
+        record=record,
+        sources=sources,
+        facing=None if sources is None else facing_lobes(sources, scope.solved),
+    )
+
+
 def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
     """Solve what the wall types are made of, and fit them."""
     wall_types = bake.wall_types
@@ -182,11 +191,6 @@ def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) ->
     """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
     powers = np.vander(asked, reflectances.size, increasing=True)
     return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1) @ powers.T)
-
-
-def _sources(environment: Environment, settings: BakeSettings, record: IntArray, plan: EffectPlan) -> LobeSources:
-    """Sources of the lobes."""
-    return lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan)
 
 
 def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dtype[np.floating]) -> Lobes | None:

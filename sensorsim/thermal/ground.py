@@ -5,9 +5,8 @@ Section 3.1.3 of [Report1978]: an infinite grey plane, dry, wet or snow-covered,
 
 import numpy as np
 
-from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.effects import EVERYTHING, EffectPlan
-from sensorsim.environment import Environment
+from sensorsim.environment import SNOW_MAXIMUM_TEMPERATURE, Environment
 from sensorsim.materials import WallType
 from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.heat_balance import expose
@@ -22,7 +21,9 @@ def ground_temperature(
 ) -> FloatArray:  # fmt: skip
     """Temperature (t,) [K] of the ground plane at every sample; the soil absorbs what the ground's albedo leaves.
 
-    It begins linear, or as the first day leaves it when that is `repeated`; melting snow never does.
+    It begins linear, or as the first day leaves it when that is `repeated`; melting snow never does. Soil of snow stays
+    at 0 C by what it takes to melt it. Other soil is cut off there while the weather says snow, as on a day that has it
+    for less than half: the heat cut off melts nothing.
     """
     up = np.array([[0.0, 0.0, 1.0]])
     # A plane that faces up sees no ground.
@@ -41,4 +42,4 @@ def ground_temperature(
     temperature = history.exterior[:, 0, 0]
     if not plan.has("snow"):
         return np.asarray(temperature)
-    return np.where(environment.ground_state == "snow", np.minimum(temperature, ZERO_CELSIUS), temperature)
+    return np.where(environment.ground_state == "snow", np.minimum(temperature, SNOW_MAXIMUM_TEMPERATURE), temperature)

@@ -78,13 +78,11 @@ def _march(
 
     Sources ascend by the sample that each is first felt at: before that they are passed over.
     """
-    n, m = rate.size, 0
-    shape = (n, source.shape[1])
+    n, shape = rate.size, (rate.size, source.shape[1])
     now, star, cells, face = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape[1])
     rise, row = np.zeros((record.size, shape[1])), int(record[0] == 0)
     for k in range(record[-1]):
-        while m < shape[1] and first[m] <= k + 1:
-            m += 1
+        m = np.searchsorted(first, k + 1, side="right")  # of the sources that have begun
         for stage in range(2):
             at = GAMMA if stage == 0 else 1.0
             loss = (1.0 - at) * slope[k] + at * slope[k + 1]

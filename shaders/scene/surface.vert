@@ -15,7 +15,7 @@ out vec4 extinction;  // [m-1]
 #endif
 flat out vec4 record[4];
 flat out vec4 last_record;
-#if EMISSIVE && MIRRORED == 2
+#if MIRRORED == 2
 flat out vec4 gloss_record;
 #endif
 flat out int surface_id;
@@ -24,7 +24,7 @@ flat out float temperature;  // [K]
 void main() {
     for (int texel = 0; texel < 4; ++texel) record[texel] = surface_texel(surface, texel);
     last_record = surface_texel(surface, 4);
-#if EMISSIVE && MIRRORED == 2
+#if MIRRORED == 2
     gloss_record = surface_texel(surface, 5);
 #endif
     surface_id = surface;
