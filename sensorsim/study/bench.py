@@ -1,8 +1,8 @@
 """What a frame costs: its stages, against one colour on the same triangles and against others, and what it grows with.
 
-A frame is one for display alone, its clock a minute on from the last: moment uploaded, surfaces, air and sky drawn,
-read back, through the sensor, windowed, shown. Wall times depend on what else the machine does, so the processor's time
-stands beside them, and all that is compared takes turns.
+A frame is one for display alone, its clock a minute on from the last: surroundings found, numbers of surfaces drawn and
+read back, their light through the air, the sensor, window and display. Wall times depend on what else the machine does,
+so the processor's time stands beside them, and all that is compared takes turns.
 """
 
 from collections.abc import Callable
