@@ -14,7 +14,7 @@ from sensorsim.study.effects_page import HEAD, row, write_effects_page
 from sensorsim.study.effects_worth import image_count, measure_effects
 from sensorsim.tables import preset as bake_preset
 
-KEYS = ("rms_K", "max_K", "max_of_white", "bake_ms", "frame_ms", "images")
+KEYS = ("rms_K", "max_K", "bound_K", "max_of_white", "bake_ms", "frame_ms", "images")
 
 
 def effects(

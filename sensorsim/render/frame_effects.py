@@ -180,8 +180,7 @@ def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:
 def _all_mirrors(assignment: Assignment) -> tuple[NDArray[np.bool_], Mirrors]:
     """Which surfaces (s,) of a scene mirror, and those; the same in each of its frames."""
     matt = assignment.emissivity
-    codes = surface_codes(assignment)
-    record, rise = gloss_records(codes, matt, assignment.nir_reflectance), rise_table()
+    record, rise = gloss_records(surface_codes(assignment), matt, assignment.nir_reflectance), rise_table()
     glossy = record[:, 0] >= 0.0
     kind, along_normal = record[glossy, 0].astype(np.int64), record[glossy, 1]
     return glossy, Mirrors(

@@ -1,8 +1,4 @@
-"""Glossy surfaces as compiled loops over the pixels of a run: what they show goes with the view.
-
-In thermal bands what they emit and mirror, as in shaders/radiance/emitted.glsl; in reflective ones what they mirror of
-sky, ground and sun, and what they scatter, as in shaders/radiance/glossy.glsl, whose tables these are.
-"""
+"""Glossy surfaces in reflective bands along a run of pixels, as a compiled loop: shaders/radiance/glossy.glsl."""
 
 from typing import Any
 
@@ -10,13 +6,12 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from sensorsim.constants import PI
-from sensorsim.materials.facets import ANGLE_ENTRIES
-from sensorsim.render.mirror import DISC_VARIANCE
+from sensorsim.environment import SUN_RADIUS
 
 Array = NDArray[Any]
-_NONE, _HALF, _ONE, _TWO, _FOUR = (np.float32(value) for value in (0.0, 0.5, 1.0, 2.0, 4.0))
-_PI, _DISC, _LEAST_COSINE, _LEAST_LENGTH = (np.float32(value) for value in (PI, DISC_VARIANCE, 1e-4, 1e-6))
+_NONE, _ONE = np.float32(0.0), np.float32(1.0)
+_DISC = 0.25 * SUN_RADIUS**2
+_LEAST_COSINE = 1e-4
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -28,72 +23,55 @@ def between(table: Array, share: Any) -> Any:
     return table[low] + (place - np.float32(low)) * (table[low + np.uint32(1)] - table[low])
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def emit_and_mirror(
-    ray: Array, along: Array, plane: Array, sent: Array, rise: Array, mirror: Array, begin: int, end: int,
-    source: Array,
+@njit(cache=True, nogil=True, error_model="numpy")
+def glossy(
+    ray: Array, along: Array, plane: Array, sent: Array, kind: int, tables: tuple[Array, Array], sun: Array,
+    beam: float, begin: int, end: int, source: Array,
 ) -> None:  # fmt: skip
-    """A glossy surface in a thermal band: what it emits along the ray, and what lies in the mirror direction.
+    """Sky and glint that facets mirror along rays, ray + x along, and what scatters below them.
 
-    sent (2,): radiance of a black body as warm, emissivity along the normal; rise, mirror: rows of its kind.
+    sent (2,): what scatters along the normal, reflectance of a facet there. tables: `mirror.facet_table` and
+    `mirror.glow_mirror_table`; sun (4,): direction to the light, and more.
     """
-    normal, black, emissivity = plane.astype(np.float32), sent[0], sent[1]
+    rise, mirror = tables
+    kinds, last = rise.shape[0] // 3, rise.shape[1] - 1
+    whole, seen, single = rise[kind, :last], rise[kinds + kind, :last], rise[2 * kinds + kind, :last]
+    facing = plane[0] * sun[0] + plane[1] * sun[1] + plane[2] * sun[2]
+    lit = facing > 0.0 and beam > 0.0
+    sun_seen, variance = between(seen, np.float32(facing)), rise[kinds + kind, last]
     for x in range(begin, end):
-        place = np.float32(x)
-        east, north, up = ray[0] + place * along[0], ray[1] + place * along[1], ray[2] + place * along[2]
-        length = np.sqrt(east * east + north * north + up * up)
-        cosine = (east * normal[0] + north * normal[1] + up * normal[2]) / length
-        outward = up / length - _TWO * cosine * normal[2]
-        mirrored = between(mirror, _HALF + _HALF * outward)
-        source[x] = mirrored + emissivity * (_ONE - between(rise, -cosine)) * (black - mirrored)
+        east, north, up = ray[0] + x * along[0], ray[1] + x * along[1], ray[2] + x * along[2]
+        length = -np.sqrt(east * east + north * north + up * up)
+        eye = (east / length, north / length, up / length)  # from the surface
+        cosine = eye[0] * plane[0] + eye[1] * plane[1] + eye[2] * plane[2]
+        high = 2.0 * cosine * plane[2] - eye[2]
+        lean = 2.0 * cosine * facing - (eye[0] * sun[0] + eye[1] * sun[1] + eye[2] * sun[2])
+        above, ahead = np.float32(0.5 + 0.5 * high), np.float32(0.5 + 0.5 * lean)
+        sky = between(mirror[kind], above)
+        sky += between(mirror[kinds + kind], above) * between(mirror[2 * kinds + kind], ahead)
+        out = max(cosine, _LEAST_COSINE)
+        share = between(whole, np.float32(out))
+        source[x] = (sent[1] + (_ONE - sent[1]) * share) * sky + sent[0] * (_ONE - share)
+        if lit:
+            shown = sun_seen * between(seen, np.float32(out)) / (4.0 * out)
+            source[x] += beam * shown * _facing_facets(eye, plane, sun, facing, cosine, variance, sent[1], single)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def mirror_and_scatter(
-    ray: Array, along: Array, plane: Array, sent: Array, rises: Array, mirrors: Array, kind: int, light: Array,
-    begin: int, end: int, source: Array,
-) -> None:  # fmt: skip
-    """A glossy surface in a reflective band.
-
-    sent (2,): reflectance of a facet along its normal, radiance that the facets' lower side would scatter at normal
-    view; rises, mirrors (3 kinds, n): tables of `mirror`; light (4,): direction towards the sun, its irradiance.
-    """
-    kinds, facet, below = rises.shape[0] // 3, sent[0], sent[1]
-    rise, glow = rises[kind, :ANGLE_ENTRIES], mirrors[kinds + kind]
-    normal, view, outward = plane[:3].astype(np.float32), np.zeros(3, np.float32), np.zeros(3, np.float32)
-    sun = normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]
-    shone = sun > _NONE and light[3] > _NONE
-    for x in range(begin, end):
-        view[:] = ray + np.float32(x) * along
-        view /= np.sqrt(view[0] * view[0] + view[1] * view[1] + view[2] * view[2])
-        cosine = view[0] * normal[0] + view[1] * normal[1] + view[2] * normal[2]
-        outward[:] = view - _TWO * cosine * normal
-        eye = max(-cosine, _LEAST_COSINE)
-        risen = between(rise, eye)
-        up, towards = _HALF + _HALF * outward[2], outward[0] * light[0] + outward[1] * light[1] + outward[2] * light[2]
-        sky = between(mirrors[kind], up)
-        sky += between(glow, up) * between(mirrors[2 * kinds + kind], _HALF + _HALF * towards)
-        source[x] = (facet + (_ONE - facet) * risen) * sky + below * (_ONE - risen)
-        if shone:
-            source[x] += light[3] * _glint(rises, kind, facet, normal, view, light, sun, eye)
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def _glint(rises: Array, kind: int, facet: Any, normal: Array, view: Array, light: Array, sun: Any, eye: Any) -> Any:
-    """Radiance of the mirrored sun for an irradiance of 1 [sr-1], see glint() in shaders/radiance/glossy.glsl."""
-    kinds = rises.shape[0] // 3
-    seen = rises[kinds + kind, :ANGLE_ENTRIES]
-    half = light[:3] - view
-    half /= np.sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2])
-    upright = half[0] * normal[0] + half[1] * normal[1] + half[2] * normal[2]
-    incidence = -(half[0] * view[0] + half[1] * view[1] + half[2] * view[2])
-    slope, lean = half / upright - normal, light[:3] + view
-    lean -= (lean[0] * normal[0] + lean[1] * normal[1] + lean[2] * normal[2]) * normal
-    length = max(np.sqrt(lean[0] * lean[0] + lean[1] * lean[1] + lean[2] * lean[2]), _LEAST_LENGTH)
-    in_plane = ((slope[0] * lean[0] + slope[1] * lean[1] + slope[2] * lean[2]) / length) ** 2
-    across = max(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2] - in_plane, _NONE)
-    plain = rises[kinds + kind, ANGLE_ENTRIES]
-    within, beside = plain + _DISC, plain + _DISC / (incidence * incidence)
-    density = np.exp(-in_plane / within - across / beside) / (_PI * np.sqrt(within * beside) * upright**4)
-    mirrored = facet + (_ONE - facet) * between(rises[2 * kinds + kind, :ANGLE_ENTRIES], incidence)
-    return mirrored * density * between(seen, sun) * between(seen, eye) / (_FOUR * eye)
+@njit(cache=True, nogil=True, error_model="numpy")
+def _facing_facets(
+    eye: tuple[float, float, float], plane: Array, sun: Array, facing: float, cosine: float, variance: float,
+    facet: float, rise: Array,
+) -> Any:  # fmt: skip
+    """Density of facets that mirror the light into the eye, times their reflectance."""
+    length = np.sqrt((sun[0] + eye[0]) ** 2 + (sun[1] + eye[1]) ** 2 + (sun[2] + eye[2]) ** 2)
+    upright, incidence = (facing + cosine) / length, 0.5 * length
+    tilt, across, in_plane = 0.0, 0.0, 0.0
+    for k in range(3):
+        slope = (sun[k] + eye[k]) / (length * upright) - plane[k]
+        side = sun[k] - eye[k] - (facing - cosine) * plane[k]
+        tilt, across, in_plane = tilt + slope * slope, across + side * side, in_plane + slope * side
+    in_plane = in_plane * in_plane / max(across, 1e-12)
+    wide, broad = variance + _DISC, variance + _DISC / (incidence * incidence)
+    density = np.exp(-in_plane / wide - max(tilt - in_plane, 0.0) / broad) / np.sqrt(wide * broad)
+    mirrored = facet + (1.0 - facet) * between(rise, np.float32(incidence))
+    return density * mirrored / (np.pi * upright**4)

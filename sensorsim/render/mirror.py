@@ -18,7 +18,6 @@ from sensorsim.materials.gloss import load_gloss
 FloatArray = NDArray[np.float64]
 
 MIRROR_ENTRIES = 513  # equally spaced in the upward component of the mirror direction, -1 to 1
-DISC_VARIANCE = 0.25 * SUN_RADIUS**2  # that the sun's disc adds to that of slopes, along its image
 _RINGS, _SECTORS = 24, 32  # of a lobe
 _FARTHEST = 3.0  # rings reach to this many half widths
 
@@ -62,7 +61,7 @@ def mirror_glsl() -> str:
     """Sizes of the tables for the shader, and what the sun's disc adds to the variance of slopes along its image."""
     return (
         f"const int ANGLE_ENTRIES = {ANGLE_ENTRIES};\nconst int MIRROR_ENTRIES = {MIRROR_ENTRIES};\n"
-        f"const int GLOSS_KINDS = {len(load_gloss())};\nconst float DISC_VARIANCE = {DISC_VARIANCE};\n"
+        f"const int GLOSS_KINDS = {len(load_gloss())};\nconst float DISC_VARIANCE = {0.25 * SUN_RADIUS**2};\n"
     )
 
 

@@ -12,7 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.render.air_kernel import through_air
-from sensorsim.render.glossy_kernel import between, emit_and_mirror, mirror_and_scatter
+from sensorsim.render.glossy_kernel import between, glossy
 
 Array = NDArray[Any]
 _NONE, _HALF, _ONE, _TWO = np.float32(0.0), np.float32(0.5), np.float32(1.0), np.float32(2.0)
@@ -43,9 +43,9 @@ def light_rows(
 
     numbers (height, width) from the lowest row up, of surfaces plus one; ends: of their runs; rays (3, 3): through the
     lower left corner, along width and height. planes, sent: of the scene's surfaces and of solids that follow on them.
-    gloss (s,): kind or -1. around: sky, gradation, indicatrix, rise and mirror tables of the kinds, ground's radiance
-    (1,), in reflective bands direction and irradiance of the sun (4,), else nothing. air: terms and direction of the
-    sun with the asymmetry, see `through_air`.
+    gloss (s,): kind or -1. around: sky, gradation, indicatrix, rise (kinds, n), mirror (kinds, m), ground's radiance
+    (1,), in reflective bands with the beam (2,) and tables as `glossy` has them. air: terms and direction of the sun
+    with the asymmetry, see `through_air`.
     """
     height, width = numbers.shape
     source, away, scratch = np.zeros(width, np.float32), np.zeros(width, np.float32), np.zeros((4, width), np.float32)
@@ -66,13 +66,8 @@ def light_rows(
                 plane, sends = planes[which][here], sent[which][here]
                 _surface(start, step, eye, plane, begin, end, away)
                 source[begin:end] = sends[0]
-                kind = gloss[place] if which == 0 else -1
-                if kind >= 0 and around[6].size > 0:
-                    mirror_and_scatter(
-                        ray, along, plane, sends, around[3], around[4], kind, around[6], begin, end, source
-                    )
-                elif kind >= 0:
-                    emit_and_mirror(ray, along, plane, sends, around[3][kind], around[4][kind], begin, end, source)
+                if which == 0 and gloss[place] >= 0:
+                    _gleam(ray, along, plane, sends, gloss[place], around, air[1], begin, end, source)
             begin, run = end, run + 1
         if clear:
             light[y] = source
@@ -86,7 +81,7 @@ def _beyond(
     source: Array, away: Array,
 ) -> None:  # fmt: skip
     """Sky above the horizon, with its glow around the sun; below it the endless ground plane."""
-    sky, gradation, indicatrix, _, _, ground, _ = around
+    sky, gradation, indicatrix, _, _, ground = around
     above, towards = np.float32(max(eye[2], 0.0)), sun.astype(np.float32)
     for x in range(begin, end):
         place = np.float32(x)
@@ -118,3 +113,33 @@ def _surface(start: Array, step: Array, eye: Array, plane: Array, begin: int, en
     nearest, farthest = max(distance - plane[7], 0.0) / (2.0 * corner), distance + plane[7]
     for x in range(begin, end):
         away[x] = min(max(off / (facing + x * slope), nearest), farthest)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gleam(
+    ray: Array, along: Array, plane: Array, sent: Array, kind: int, around: tuple[Array, ...], sun: Array, begin: int,
+    end: int, source: Array,
+) -> None:  # fmt: skip
+    """A glossy surface, by the band."""
+    _, _, _, rise, mirror, ground = around
+    if ground.size == 1:
+        _mirror(ray, along, plane, sent, rise[kind], mirror[kind], begin, end, source)
+    else:
+        glossy(ray, along, plane, sent, kind, (rise, mirror), sun, ground[1], begin, end, source)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+def _mirror(
+    ray: Array, along: Array, plane: Array, sent: Array, rise: Array, mirror: Array, begin: int, end: int,
+    source: Array,
+) -> None:  # fmt: skip
+    """A glossy surface: what it emits along the ray, and what lies in the mirror direction."""
+    normal, black, emissivity = plane.astype(np.float32), sent[0], sent[1]
+    for x in range(begin, end):
+        place = np.float32(x)
+        east, north, up = ray[0] + place * along[0], ray[1] + place * along[1], ray[2] + place * along[2]
+        length = np.sqrt(east * east + north * north + up * up)
+        cosine = (east * normal[0] + north * normal[1] + up * normal[2]) / length
+        outward = up / length - _TWO * cosine * normal[2]
+        mirrored = between(mirror, _HALF + _HALF * outward)
+        source[x] = mirrored + emissivity * (_ONE - between(rise, -cosine)) * (black - mirrored)

@@ -67,19 +67,20 @@ class QuickLight:
         if illumination is self.lit:
             return
         self.lit, glow = illumination, illumination.glow
-        none, mirrors = np.zeros(0), {"rise_table": np.zeros((1, 2)), "mirror_table": np.zeros((1, 2))}
+        none, lone = np.zeros(0), np.zeros((1, 2))
+        tables = {"rise_table": lone, "mirror_table": lone}
         if np.any(self.gloss >= 0):
-            mirrors = illumination.mirror_tables(emissive=self.emissive)
-        tables = (
+            tables = illumination.mirror_tables(emissive=self.emissive)
+        light = [illumination.ground_radiance] + ([] if self.emissive else [illumination.beam])
+        around = (
             illumination.sky,
             none if glow is None else glow.gradation,
             none if glow is None else glow.indicatrix,
-            mirrors["rise_table"],
-            mirrors["mirror_table"],
-            np.array([illumination.ground_radiance]),
-            none if self.emissive else np.append(illumination.sun_direction, illumination.beam),
+            tables["rise_table"],
+            tables["mirror_table"],
+            np.array(light),
         )
-        self.around = tuple(np.ascontiguousarray(table, np.float32) for table in tables)
+        self.around = tuple(np.ascontiguousarray(table, np.float32) for table in around)
 
 
 def _air_terms(illumination: Illumination, camera: Camera, most: float) -> tuple[Single, NDArray[np.float64]]:

@@ -160,11 +160,16 @@ class SensorChain:
         defines = {"STREAKS": int(self.streaks), "HALO": int(self.halo)}
         defines |= {"STREAK_BLOCK": STREAK_BLOCK, "HALO_BLOCK": HALO_BLOCK}
         passes["reported"] = _with_block(ctx, "detect", tuple(samplers), defines)
+        return passes | self._last_passes()
+
+    def _last_passes(self) -> dict[str, Pass]:
+        """What comes after the detector's report."""
+        passes = {}
         if "replaced" in self.after:
             tables = ("reported_picture", "pattern_table")
-            passes["replaced"] = screen_pass(ctx, "sensor/replace.frag", tables, {"REACH": REACH})
+            passes["replaced"] = screen_pass(self.ctx, "sensor/replace.frag", tables, {"REACH": REACH})
         if "woven" in self.after:
-            passes["woven"] = screen_pass(ctx, "sensor/raster.frag", ("reported_picture", "raster_table"))
+            passes["woven"] = screen_pass(self.ctx, "sensor/raster.frag", ("reported_picture", "raster_table"))
         return passes
 
     def _texture(self, name: str) -> moderngl.Texture:

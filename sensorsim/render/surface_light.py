@@ -1,7 +1,8 @@
 """What whole surfaces send at a moment, on the processor: temperature and radiance of those that a frame sees.
 
 What does not vary within a surface is computed once for each moment, and only for surfaces that are in a picture: the
-cost follows what is visible. The equations are those of shaders/radiance/emitted.glsl and reflected.glsl.
+cost follows what is visible. The equations are those of shaders/radiance/emitted.glsl, reflected.glsl and
+glossy.glsl.
 """
 
 import numpy as np
@@ -11,6 +12,7 @@ from sensorsim.constants import PI
 from sensorsim.materials.facets import ANGLE_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.illumination import Illumination
+from sensorsim.render.mirror import facet_table
 from sensorsim.render.solids import Solids
 from sensorsim.render.surface_table import SurfaceRows
 from sensorsim.render.world import World
@@ -18,7 +20,6 @@ from sensorsim.tables.shade import shade
 
 FloatArray = NDArray[np.float64]
 Single = NDArray[np.float32]
-COSINES = np.linspace(0.0, 1.0, ANGLE_ENTRIES)
 
 
 class SurfaceLight:
@@ -27,7 +28,7 @@ class SurfaceLight:
     def __init__(self, world: World, rows: SurfaceRows, band_table: BandTable | None) -> None:
         self.world, self.rows, self.band_table = world, rows, band_table
         count = rows.wall_type.size
-        # Matt: radiance. Glossy: a black body's, emissivity; or a facet's reflectance, radiance scattered below.
+        # Matt: radiance. Glossy: black body's and emissivity; in reflective bands what scatters, a facet's reflectance.
         self.sent = np.zeros((count, 2), np.float32)
         self.known = np.zeros(count, np.bool_)
         self.moment: tuple[float, Illumination] | None = None
@@ -57,27 +58,15 @@ class SurfaceLight:
         rows = self.rows
         normal, sent = rows.normal[row], np.zeros((row.size, 2))
         if self.band_table is None:
-            return self._mirrored_or_scattered(row, illumination)
+            sent[:, 0] = reflected(illumination, rows.nir_reflectance[row], normal, rows.quarters[row])
+            held = row[rows.gloss[row] >= 0]
+            if held.size:
+                sent[rows.gloss[row] >= 0] = np.stack([scattered(illumination, rows, held), rows.facet[held]], axis=1)
+            return sent
         black = self.band_table.radiance_at(self._temperature(row, time_of_day))
         glossy = rows.gloss[row] >= 0
         sent[:, 0] = np.where(glossy, black, matt(illumination, black, rows.emissivity[row], normal))
         sent[:, 1] = rows.normal_emissivity[row]
-        return sent
-
-    def _mirrored_or_scattered(self, row: NDArray[np.int64], around: Illumination) -> FloatArray:
-        """In reflective bands: radiance of the matt; a facet's reflectance of the glossy and what they scatter."""
-        rows, sent = self.rows, np.zeros((row.size, 2))
-        sent[:, 0] = reflected(around, rows.nir_reflectance[row], rows.normal[row], rows.quarters[row])
-        glossy = np.flatnonzero(rows.gloss[row] >= 0)
-        if glossy.size:
-            row = row[glossy]
-            normal, kind, facet = rows.normal[row], rows.gloss[row], rows.facet_reflectance[row]
-            rises = around.mirror_tables(emissive=False)["rise_table"][kind]
-            cosine = np.maximum(normal @ around.sun_direction, 0.0)
-            risen = [np.interp(at, COSINES, rise[:-1]) for at, rise in zip(cosine, rises, strict=True)]
-            direct = around.beam * cosine * (1.0 - np.array(risen)) / rises[:, -1]
-            received = direct + diffuse(around, normal, rows.quarters[row])
-            sent[glossy] = np.column_stack([facet, (rows.nir_reflectance[row] - facet) * received / PI])
         return sent
 
     def _temperature(self, row: NDArray[np.int64], time_of_day: float) -> FloatArray:
@@ -106,5 +95,17 @@ def reflected(around: Illumination, reflectance: FloatArray, normal: FloatArray,
 
 
 def diffuse(around: Illumination, normal: FloatArray, quarters: FloatArray) -> FloatArray:
-    """Irradiance of surfaces in a reflective band without the direct sun [W m-2]."""
-    return np.asarray(4.0 * (quarters @ around.quadrant) + PI * around.ground_radiance * 0.5 * (1.0 - normal[:, 2]))
+    """Irradiance of surfaces by four quarters of the sky and the sunlit ground [W m-2]."""
+    from_ground = PI * around.ground_radiance * 0.5 * (1.0 - normal[:, 2])
+    return np.asarray(4.0 * (quarters @ around.quadrant) + from_ground)
+
+
+def scattered(around: Illumination, rows: SurfaceRows, held: NDArray[np.int64]) -> FloatArray:
+    """Radiance that glossy surfaces scatter from below their facets, seen along the normal."""
+    table, kinds, cosine = facet_table(around.wind_speed), rows.gloss[held], np.linspace(0.0, 1.0, ANGLE_ENTRIES)
+    normal = rows.normal[held]
+    sun = np.maximum(normal @ around.sun_direction, 0.0)
+    rise = np.array([np.interp(angle, cosine, table[kind, :-1]) for angle, kind in zip(sun, kinds, strict=True)])
+    direct = around.beam * sun * (1.0 - rise) / table[kinds, -1]
+    share = rows.nir_reflectance[held] - rows.facet[held]
+    return np.asarray(share * (direct + diffuse(around, normal, rows.quarters[held])) / PI)

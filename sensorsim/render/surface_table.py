@@ -32,7 +32,7 @@ class SurfaceRows:
     nir_reflectance: FloatArray  # (s,)
     gloss: NDArray[np.int64]  # (s,) kind of gloss or -1
     normal_emissivity: FloatArray  # (s,)
-    facet_reflectance: FloatArray  # (s,) of a facet along its normal in 0.8-1.1 um
+    facet: FloatArray  # (s,) reflectance of a facet along the normal in 0.8-1.1 um
 
 
 def surface_table(
@@ -73,7 +73,7 @@ def surface_rows(records: NDArray[np.float32], count: int) -> SurfaceRows:
         nir_reflectance=row[:, 4, 0].copy(),
         gloss=row[:, 5, 0].astype(np.int64),
         normal_emissivity=row[:, 5, 1].copy(),
-        facet_reflectance=row[:, 5, 2].copy(),
+        facet=row[:, 5, 2].copy(),
     )
 
 

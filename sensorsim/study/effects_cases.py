@@ -82,6 +82,8 @@ CASES = (
     _part("memory", "sit1977", 10.0, "The tube still holds a share of the frame before: double edges.", turn=0.3),
     _part("streaks", "flir1977", 13.0,
           "Rows that hold hot walls are darkened, to their right most; the cold sky comes to the ground's level."),
+    _part("blooming", "emccd, blooming", 16.5, "Bright haze below the low sun spills up and down its columns.",
+          "into the sun"),
     _part("interlace", "sit1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
     _part("interlace", "flir1977", 10.0, "Every other line is of the frame before: a comb along the turn.", turn=0.3),
     _part("raster_lines", "sit1977, coarse", 10.0, "Lines three rows high: steps along slanted edges."),

@@ -13,7 +13,16 @@ from sensorsim.study.page import Page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEAD = ("effect", "RMS [K]", "greatest [K]", "of white [-]", "bakes [ms]", "frame [ms]", "images that call for it")
+HEAD = (
+    "effect",
+    "RMS [K]",
+    "greatest [K]",
+    "bound [K]",
+    "of white [-]",
+    "bakes [ms]",
+    "frame [ms]",
+    "images that call for it",
+)
 
 
 def write_effects_page(path: Path, found: Sequence[EffectWorth], images: int) -> None:
@@ -24,9 +33,10 @@ def write_effects_page(path: Path, found: Sequence[EffectWorth], images: int) ->
         "Kelvin are of apparent temperature in the images of the FLIR; a change in an image of the LLLTV is told as a "
         "share of a white surface that faces the sun. Times are processor times: of the bakes of all worlds that the "
         "figures need, and of one frame of 640 by 480 pixels drawn in software; their differences are as noisy as "
-        "the machine is busy."
+        "the machine is busy. The bound is the greatest that a ledger tells of leaving the effect out; a row is "
+        "coloured where an image changed by more than its own."
     )
-    page.table(HEAD, [row(worth) for worth in found])
+    page.table(HEAD, [row(worth) for worth in found], alarm=[not worth.holds for worth in found])
     page.figure(_plot(found), "Greatest and root-mean-square change of apparent temperature; dashed: the tolerance.")
     page.heading("Not modelled at all")
     page.text("; ".join(NOT_MODELLED) + ".")
@@ -35,9 +45,8 @@ def write_effects_page(path: Path, found: Sequence[EffectWorth], images: int) ->
 
 def row(worth: EffectWorth) -> tuple[str | float, ...]:
     """Cells of one effect under HEAD."""
-    return (
-        worth.effect, worth.kelvin_rms, worth.kelvin_max, worth.white_max, worth.bake_ms, worth.frame_ms, worth.called
-    )  # fmt: skip
+    seen = worth.kelvin_rms, worth.kelvin_max, worth.kelvin_bound, worth.white_max
+    return worth.effect, *seen, worth.bake_ms, worth.frame_ms, worth.called
 
 
 def _plot(found: Sequence[EffectWorth]) -> "Figure":

@@ -30,6 +30,7 @@ STUDY = BakeSettings(
     orientations="icosphere42", interpolation="barycentric", lobes=0.0, reflectances=(0.1, 0.5, 0.9), degree=2,
     step=900.0, slice_interval=3600.0, lead_in_days=2.0,
 )  # fmt: skip
+ROUNDING = 1e-6  # of single precision, relative
 FRAME_SIZE, FRAMES = (640, 480), 8  # of the frames that are timed, and how many the best is taken of
 
 
@@ -43,6 +44,8 @@ class EffectWorth:
     bake_ms: float = 0.0  # processor time of the bakes that it takes [ms]
     frame_ms: float = 0.0  # processor time of a frame of FRAME_SIZE that it takes [ms]
     called: int = 0  # images that call for it by its bound
+    kelvin_bound: float = 0.0  # greatest bound of that change [K]
+    holds: bool = True  # whether no image changes by more than its bound
     squares: list[float] = field(default_factory=list)  # mean square of each emissive image [K2]
 
     @property
@@ -88,13 +91,14 @@ class _Place:
 
 def measure_effects(
     *, settings: BakeSettings | None = None, size: tuple[int, int] = (160, 120), backend: str = "auto",
-    progress: Progress | None = None,
+    progress: Progress | None = None, places: Sequence[tuple[str, date]] | None = None,
 ) -> list[EffectWorth]:  # fmt: skip
-    """Worth of each effect that the settings' sky has."""
+    """Worth of each effect that the settings' sky has, at all levels and days of the figures or at some `places`."""
     settings = STUDY if settings is None else settings
     drawn = [effect for effect in EFFECTS if not effect.part]  # the images are those of ideal sensors
     found = [EffectWorth(effect=effect.name) for effect in drawn if effect.sky in (None, settings.sky)]
-    worlds = sorted({(figure.level, day) for figure in FIGURES for day, _ in figure.moments}, reverse=True)
+    every = sorted({(figure.level, day) for figure in FIGURES for day, _ in figure.moments}, reverse=True)
+    worlds = every if places is None else places
     for done, (level, day) in enumerate(worlds):
         place = _Place(level=level, day=day, settings=settings, size=size, backend=backend)
         for step, worth in enumerate(_add(place, found, timed=done == 0)):
@@ -127,16 +131,23 @@ def _add(place: _Place, found: Sequence[EffectWorth], *, timed: bool) -> Iterato
             worth.bake_ms += spent
         elif name in OF_FRAMES:
             without = replace(survey, choice=BASE.with_refused(name))
-            for sensor in SENSORS:
+            for sensor in _seen_by(name):
                 _compare(worth, whole[sensor], place.look(without, tables, sensor))
-            for sensor, time_whole in frame.items():
-                worth.frame_ms = max(worth.frame_ms, time_whole - _frame_time(place, without, tables, sensor))
+            for sensor in _seen_by(name) if timed else ():
+                less = _frame_time(place, without, tables, sensor)
+                worth.frame_ms = max(worth.frame_ms, frame[sensor] - less)
         elif survey.ledger.row(name).on and survey.ledger.row(name).bound > 0.0:  # else nothing is left out
             without = _left_out(survey, name)
             left, less = _bake(without)
             worth.bake_ms += spent - less
             _compare(worth, whole["flir"], place.look(without, left, "flir"))
         yield worth
+
+
+def _seen_by(name: str) -> tuple[str, ...]:
+    """Sensors that an effect of the frame has a place in."""
+    modes = {effect.name: effect.mode for effect in EFFECTS}
+    return tuple(sensor for sensor in SENSORS if modes[name] in (None, load_sensor(sensor).mode))
 
 
 def _left_out(survey: Survey, name: str) -> Survey:
@@ -180,12 +191,17 @@ def _called(place: _Place, tables: ShadeTables) -> Mapping[str, int]:
 
 def _compare(worth: EffectWorth, whole: Sequence[Picture], left: Sequence[Picture]) -> None:
     for one, other in zip(whole, left, strict=True):
+        assert other.ledger is not None
+        bound, plane = other.ledger.row(worth.effect).bound, "radiance"
         if "apparent_temperature" in one.planes:
-            change = one.planes["apparent_temperature"] - other.planes["apparent_temperature"]
-            worth.kelvin_max = max(worth.kelvin_max, float(np.abs(change).max()))
+            plane, worth.kelvin_bound = "apparent_temperature", max(worth.kelvin_bound, bound)
+        change = np.abs(one.planes[plane] - other.planes[plane])
+        greatest = float(change.max())
+        worth.holds = worth.holds and greatest <= bound * (1.0 + ROUNDING) + ROUNDING * float(one.planes[plane].max())
+        if plane == "apparent_temperature":
+            worth.kelvin_max = max(worth.kelvin_max, greatest)
             worth.squares.append(float(np.mean(np.square(change))))
         else:
             light = one.illumination
             white = (light.beam + float(np.sum(light.quadrant))) / PI
-            change = np.abs(one.planes["radiance"] - other.planes["radiance"])
-            worth.white_max = max(worth.white_max, float(change.max()) / white)
+            worth.white_max = max(worth.white_max, greatest / white)

@@ -1,83 +1,173 @@
 """The balances of both faces of a block of columns: what radiation, air and vapour bring is what conduction takes away.
 
-They are not linear: a Newton iteration in two unknowns, with the cube roots of the films stepped along.
+They are not linear: a Newton iteration in two unknowns, with the cube roots of the films stepped along, as their
+inverses, which takes no division. All lanes take two steps; those that then have not settled go on.
 Saturation pressure over water is the polynomial of [Lowe1977], which vectorises where an exponential does not.
 """
 
 from sensorsim.constants import ZERO_CELSIUS
 from sensorsim.thermal.boundary import FloatArray
 from sensorsim.thermal.lanes import (
+    ABSORBED,
     EXCHANGE,
     EXTERIOR,
-    EXTERIOR_FILM,
     FILM_CUBED,
+    FORCED,
     FREE,
     FREE_COLDER,
     INTERIOR,
-    INTERIOR_FILM,
+    INTERIOR_PER_FILM,
+    INTERIOR_RISE,
+    INTERIOR_RISE_BEFORE,
+    INTERIOR_START,
     LATENT,
     LATENT_SLOPE,
     LATER,
     LEFT,
     LOAD,
     MOVED,
+    PER_FILM,
     RIGHT,
+    RISE,
+    RISE_BEFORE,
+    START,
+    UNBOUNDED,
     Index,
     inner,
+    scalar,
+    wide,
 )
 
+# absorbed, forced film cubed, free films cubed of a warmer and a colder face per kelvin, from the cells to both faces
+Loads = tuple[float, float, float, float, float, float]
 Room = tuple[float, float, float, float, float]  # air, radiation, forced film cubed, free film cubed, grey
+Guess = tuple[float, float, float]  # where to look for the faces: of the rise of stage, last step, and one before
+Exchange = tuple[float, float, float, float, float]  # a row of `Cells.exchange`
 ITERATION_LIMIT = 100
-TOLERANCE = 1e-4  # [K] and [W m-2 K-1] last move of temperatures and films together; Newton squares it
-LEAST_FILM = 1e-3  # [W m-2 K-1] keeps the cube root from dividing by zero in perfectly still air
+TOLERANCE = 2e-3  # [K] last move of the temperatures, and of the films by what they do to them; Newton squares it
+LEAST_GAP = 0.1  # [K] to the air, for what a film does: one that is far too large leaves none
+MOST_PER_FILM = 1e3  # [W-1 m2 K] of perfectly still air
 COLDEST_WATER = -100.0  # [C] below which the saturation polynomial is held
+A, B, C = 1.0 / 3.0, 2.0 / 9.0, 14.0 / 81.0  # of (1 - x)^(-1/3)
+
+
+@scalar
+def step_film(root: float, cubed: float) -> float:
+    """Inverse cube root by one step of fourth order from a near one; from afar it comes nearer."""
+    lack = max(1.0 - cubed * (root * root * root), -1.0)
+    return min(root * (1.0 + lack * (A + lack * (B + lack * C))), MOST_PER_FILM)
+
+
+@scalar
+def newton(
+    face: tuple[float, float], room_face: tuple[float, float], loads: Loads, latent: tuple[float, float],
+    exchange: Exchange, grey: float, air: float, room: Room,
+) -> tuple[float, float, float, float, float]:  # fmt: skip
+    """One step for both faces, which are temperature [C] and inverse film; returns both, and how far they went [K]."""
+    a, b, c, d, _ = exchange
+    room_air, radiation, room_cubed, free, room_grey = room
+    absorbed, cubed, warmer, colder, left, right = loads
+    ext, old = face
+    inn, room_old = room_face
+    gap, room_gap = air - ext, room_air - inn
+    lift, room_lift = (warmer if gap < 0.0 else colder) * abs(gap), free * abs(room_gap)
+    cubed, room_cubed = cubed + lift, room_cubed + room_lift
+    root, room_root = step_film(old, cubed), step_film(room_old, room_cubed)
+    square, room_square = root * root, room_root * room_root
+    film, room_film = cubed * square, room_cubed * room_square
+    kelvin, room_kelvin = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
+    cube, room_cube = grey * kelvin * (kelvin * kelvin), room_grey * room_kelvin * (room_kelvin * room_kelvin)
+    lack = absorbed + left + film * gap - cube * kelvin - a * ext + b * inn - latent[0]
+    room_lack = radiation + right + room_film * room_gap - room_cube * room_kelvin + c * ext - d * inn
+    slope = a + film + A * (lift * square) + 4.0 * cube + latent[1]
+    room_slope = d + room_film + A * (room_lift * room_square) + 4.0 * room_cube
+    scale = 1.0 / (slope * room_slope - b * c)
+    move, room_move = (lack * room_slope + b * room_lack) * scale, (room_lack * slope + c * lack) * scale
+    turned, room_turned = abs(root - old) * film, abs(room_root - room_old) * room_film
+    moved = abs(move) + abs(room_move) + turned * (abs(gap) + LEAST_GAP) + room_turned * (abs(room_gap) + LEAST_GAP)
+    return max(ext + move, -ZERO_CELSIUS), max(inn + room_move, -ZERO_CELSIUS), root, room_root, moved
+
+
+@scalar
+def ahead(start: float, stage: float, rise: float, before: float, guess: Guess) -> float:
+    """Where a face is looked for."""
+    return start + guess[0] * (stage - start) + guess[1] * rise + guess[2] * before
 
 
 @inner
-def balance(
-    lanes: Index, w: FloatArray, exchange: FloatArray, grey: float, air: float, vapour: float, room: Room, wet: bool,
-    at: float,
-) -> int:  # fmt: skip
-    """Bring both faces of the lanes that are marked as moving into balance; returns how many did not get there."""
-    moving = 0
-    for _ in range(ITERATION_LIMIT):
-        if wet:
-            evaporate(lanes, w, vapour, at)
-        moving = _approach(lanes, w, exchange, grey, air, room)
-        if moving == 0:
-            break
+def load(lanes: Index, w: FloatArray, at: float, guess: Guess) -> int:
+    """What acts on the exterior face at a fraction `at` of the step, where both are looked for; returns all lanes."""
+    rest = 1.0 - at
+    for j in range(lanes):
+        ext, inn = w[EXTERIOR + j], w[INTERIOR + j]
+        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
+        w[FILM_CUBED + j], w[MOVED + j] = forced * forced * forced, UNBOUNDED
+        w[LOAD + j] = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j]
+        w[EXTERIOR + j] = ahead(w[START + j], ext, w[RISE + j], w[RISE_BEFORE + j], guess)
+        w[INTERIOR + j] = ahead(
+            w[INTERIOR_START + j], inn, w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess
+        )  # fmt: skip
+    return int(lanes)
+
+
+@inner
+def leap(
+    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, room: Room, at: float, guess: Guess
+) -> int:
+    """As `load`, and two steps of all lanes, where nothing evaporates; returns how many lanes have to go on."""
+    wide()
+    rest, dry, moving = 1.0 - at, (0.0, 0.0), 0
+    for j in range(lanes):
+        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
+        absorbed, cubed = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j], forced * forced * forced
+        ext = ahead(w[START + j], w[EXTERIOR + j], w[RISE + j], w[RISE_BEFORE + j], guess)
+        inn = ahead(
+            w[INTERIOR_START + j], w[INTERIOR + j], w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess
+        )  # fmt: skip
+        loads = (absorbed, cubed, w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
+        face, room_face = (ext, w[PER_FILM + j]), (inn, w[INTERIOR_PER_FILM + j])
+        ext, inn, root, room_root, moved = newton(face, room_face, loads, dry, exchange, grey, air, room)
+        face, room_face = (ext, root), (inn, room_root)
+        ext, inn, root, room_root, moved = newton(face, room_face, loads, dry, exchange, grey, air, room)
+        w[EXTERIOR + j], w[INTERIOR + j], w[PER_FILM + j], w[INTERIOR_PER_FILM + j] = ext, inn, root, room_root
+        w[LOAD + j], w[FILM_CUBED + j], w[MOVED + j] = absorbed, cubed, moved
+        moving += 0 if moved <= TOLERANCE else 1
     return moving
 
 
 @inner
-def _approach(lanes: Index, w: FloatArray, exchange: FloatArray, grey: float, air: float, room: Room) -> int:
+def balance(
+    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, vapour: float, room: Room, wet: bool,
+    at: float, moving: int,
+) -> int:  # fmt: skip
+    """Bring both faces of the lanes that still move, if any do, into balance; returns how many did not get there.
+
+    Wet ones have not yet taken the two steps that all take.
+    """
+    rounds, sure = 0, 2 if wet else 0
+    while (moving > 0 or rounds < sure) and rounds < ITERATION_LIMIT:
+        if wet:
+            evaporate(lanes, w, vapour, at)
+        moving = _approach(lanes, w, exchange, grey, air, room, TOLERANCE if rounds >= sure else -1.0)
+        rounds += 1
+    return moving
+
+
+@inner
+def _approach(
+    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, room: Room, still_below: float
+) -> int:
     """One Newton step of both faces of the lanes that still move, whether or not others do; returns how many go on."""
-    a, b, c, d = exchange[0], exchange[1], exchange[2], exchange[3]
-    room_air, radiation, cubed, free, room_grey = room
-    third, moving = 1.0 / 3.0, 0
+    wide()
+    moving = 0
     for j in range(lanes):
-        ext, inn, old, room_old = w[EXTERIOR + j], w[INTERIOR + j], w[EXTERIOR_FILM + j], w[INTERIOR_FILM + j]
-        gap, room_gap, square, room_square = air - ext, room_air - inn, old * old, room_old * room_old
-        both = 1.0 / (square * room_square)  # one division for two
-        warmer, colder = w[FREE + j], w[FREE_COLDER + j]
-        own = warmer if gap < 0.0 else colder
-        lift, room_lift = own * abs(gap) * both * room_square, free * abs(room_gap) * both * square
-        h = max((2.0 * old + w[FILM_CUBED + j] * both * room_square + lift) * third, LEAST_FILM)
-        room_h = max((2.0 * room_old + cubed * both * square + room_lift) * third, LEAST_FILM)
-        film = h if w[FILM_CUBED + j] + own > 0.0 else 0.0
-        room_film = room_h if cubed + free > 0.0 else 0.0
-        kelvin, room_kelvin = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
-        cube, room_cube = grey * kelvin * kelvin * kelvin, room_grey * room_kelvin * room_kelvin * room_kelvin
-        lack = w[LOAD + j] + film * gap - cube * kelvin - w[LATENT + j] - a * ext + b * inn + w[LEFT + j]
-        room_lack = radiation + room_film * room_gap - room_cube * room_kelvin + c * ext - d * inn + w[RIGHT + j]
-        slope = a + film + lift * third + 4.0 * cube + w[LATENT_SLOPE + j]
-        room_slope = d + room_film + room_lift * third + 4.0 * room_cube
-        scale = 1.0 / (slope * room_slope - b * c)
-        move, room_move = (lack * room_slope + b * room_lack) * scale, (room_lack * slope + c * lack) * scale
-        moved, still = abs(move) + abs(room_move) + abs(h - old) + abs(room_h - room_old), w[MOVED + j] <= TOLERANCE
-        w[EXTERIOR_FILM + j], w[INTERIOR_FILM + j] = old if still else h, room_old if still else room_h
-        w[EXTERIOR + j] = ext if still else max(ext + move, -ZERO_CELSIUS)
-        w[INTERIOR + j] = inn if still else max(inn + room_move, -ZERO_CELSIUS)
+        still = w[MOVED + j] <= still_below
+        face, room_face = (w[EXTERIOR + j], w[PER_FILM + j]), (w[INTERIOR + j], w[INTERIOR_PER_FILM + j])
+        loads = (w[LOAD + j], w[FILM_CUBED + j], w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
+        latent = (w[LATENT + j], w[LATENT_SLOPE + j])
+        ext, inn, root, room_root, moved = newton(face, room_face, loads, latent, exchange, grey, air, room)
+        w[EXTERIOR + j], w[INTERIOR + j] = face[0] if still else ext, room_face[0] if still else inn
+        w[PER_FILM + j], w[INTERIOR_PER_FILM + j] = face[1] if still else root, room_face[1] if still else room_root
         w[MOVED + j] = 0.0 if still else moved
         moving += 0 if still or moved <= TOLERANCE else 1
     return moving

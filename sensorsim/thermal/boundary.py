@@ -15,15 +15,19 @@ FloatArray = NDArray[np.float64]
 
 
 class Cells(NamedTuple):
-    """A wall's linear part, factored for one step length."""
+    """A wall's linear part, factored for one step length, to be eliminated from either face."""
 
-    # (5,) flux into the exterior face per kelvin of itself and, away, of the interior one; into the interior face per
-    # kelvin of the exterior one, away, and of itself; conductance from exterior face to first cell [W m-2 K-1]
+    # (2, 5) flux into the exterior face per kelvin of itself and, away, of the interior one; into the interior face per
+    # kelvin of the exterior one, away, and of itself; conductance from the face to the cell next to it [W m-2 K-1];
+    # as found by an elimination that ends at the exterior and at the interior face
     exchange: FloatArray
-    # (n, 6) of a cell's temperature: by its right side, by the cell inward of it; its flux into the interior face
-    # [W m-2 K-1]; by the cell outward of it, by the interior face; reach of its change in a step by that in the first
-    # stage, 0 for a cell that takes longer than a step
-    factors: FloatArray
+    # (n, 5) of an elimination outward: a cell's own part, the share of the cell before in it, its flux into the face
+    # where the elimination began [W m-2 K-1]; then its temperature by that of the cell after it and by that face
+    outward: FloatArray
+    inward: FloatArray  # (n, 5) likewise of an elimination inward
+    # (2,) reach of the outermost and innermost cells' change in a step by that in the first stage, 0 for those that
+    # take longer than a step
+    reach: FloatArray
 
 
 class Outside(NamedTuple):
@@ -80,7 +84,7 @@ class Columns(NamedTuple):
     """State of all columns, updated in place."""
 
     cells: FloatArray  # (n, m) [C]
-    carried: FloatArray  # (8, m) by pairs of the exterior and the interior face, see the properties
+    carried: FloatArray  # (10, m) by pairs of the exterior and the interior face, see the properties
     orientation: NDArray[np.int64]  # (m,)
     absorptance: FloatArray  # (m,)
 
@@ -90,8 +94,8 @@ class Columns(NamedTuple):
         return self.carried[0:2]
 
     @property
-    def films(self) -> FloatArray:
-        """Total films (2, m) [W m-2 K-1]."""
+    def per_film(self) -> FloatArray:
+        """Inverse of the total films (2, m) [W-1 m2 K]."""
         return self.carried[2:4]
 
     @property
@@ -101,8 +105,8 @@ class Columns(NamedTuple):
 
     @property
     def rise(self) -> FloatArray:
-        """What the faces' temperatures rose (2, m) in the last step [K], by which the next one's are guessed."""
-        return self.carried[6:8]
+        """What the faces' temperatures rose in the last two steps (4, m) [K], by which the next one's are guessed."""
+        return self.carried[6:10]
 
 
 class Trace(NamedTuple):

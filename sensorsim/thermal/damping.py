@@ -4,6 +4,7 @@ No method of second order keeps every answer monotone [Bolley1978], and a thin m
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
@@ -12,22 +13,31 @@ from sensorsim.thermal.lanes import (
     CELL,
     EXTERIOR,
     FIRST,
+    FLUX,
     HIGHEST,
     INTERIOR,
+    INTERIOR_FLUX,
+    INTERIOR_PER_FILM,
     INTERIOR_START,
+    KEPT,
+    LANES,
     LATER,
+    LATER_FLUX,
+    LATER_INTERIOR_FLUX,
     LEAST,
     LONGWAVE,
     LOWEST,
     MARK,
     MOST,
     NOW,
-    STAGE,
+    OLD,
+    OUTERMOST,
+    PER_FILM,
     START,
     SUN,
-    UNBOUNDED,
     Index,
     inner,
+    wide,
 )
 
 GAMMA = 1.0 - np.sqrt(0.5)
@@ -35,68 +45,75 @@ CARRY = (1.0 - GAMMA) / GAMMA  # weight of the first stage's change in the secon
 TURN = 1e-7  # [K] overshoot that is left alone
 
 
-@inner
-def bound(lanes: Index, w: FloatArray, low: float, high: float) -> None:
-    """Range of the step's start and of air and rooms, which are from `low` to `high` [C]."""
-    for j in range(lanes):
-        w[LEAST + j] = min(low, w[START + j], w[INTERIOR_START + j], w[LOWEST + j]) - TURN
-        w[MOST + j] = max(high, w[START + j], w[INTERIOR_START + j], w[HIGHEST + j]) + TURN
+RESULTS = (EXTERIOR, INTERIOR, PER_FILM, INTERIOR_PER_FILM, FLUX, INTERIOR_FLUX, LATER_FLUX, LATER_INTERIOR_FLUX)
 
 
 @inner
-def calls_for_damping(lanes: Index, w: FloatArray, c: FloatArray, factors: FloatArray, wet: bool) -> bool:
-    """Mark lanes in which a stiff cell passed the balance of the first stage and turned, or any left its range."""
+def calls_for_damping(
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], low: float, high: float, reach: FloatArray,
+    wet: bool,
+) -> bool:  # fmt: skip
+    """Mark lanes in which a stiff cell passed the balance of the first stage and turned, or any left its range.
+
+    The range is that of the start of the step and of air and rooms, which are from `low` to `high` [C].
+    """
+    wide()
     calls = 0
-    measure(lanes, w, c)
     for j in range(lanes):
-        cold, hot = w[LOWEST + j] + (ZERO_CELSIUS + TURN), w[HIGHEST + j] + (ZERO_CELSIUS - TURN)
+        face, room_face, lowest, highest = w[START + j], w[INTERIOR_START + j], w[LOWEST + j], w[HIGHEST + j]
+        least, most = (
+            min(low, min(face, room_face), w[LEAST + j]) - TURN,
+            max(high, max(face, room_face), w[MOST + j]) + TURN,
+        )
+        cold, hot = lowest + (ZERO_CELSIUS + TURN), highest + (ZERO_CELSIUS - TURN)
         sunlit = w[SUN + j] + w[LATER + SUN + j] > 0.0
         below = SIGMA * cold * cold * cold * cold < min(w[LONGWAVE + j], w[LATER + LONGWAVE + j])
         above = SIGMA * hot * hot * hot * hot > max(w[LONGWAVE + j], w[LATER + LONGWAVE + j]) and not sunlit
-        left = (w[LOWEST + j] < w[LEAST + j] and below) or (w[HIGHEST + j] > w[MOST + j] and above)
-        w[MARK + j] = 1.0 if left and not wet else 0.0
-    for i in range(factors.shape[0]):
-        at, reach = Index(i + 1) * CELL, factors[i, 5]
-        if reach > 0.0:
-            for j in range(lanes):
-                change, first = c[at + STAGE + j] - c[at + NOW + j], c[at + FIRST + j] - c[at + NOW + j]
-                beyond, back = change - reach * first, CARRY * first - change
-                w[MARK + j] = max(w[MARK + j], beyond * back - TURN * abs(back))
-    for j in range(lanes):
-        w[MARK + j] = 1.0 if w[MARK + j] > 0.0 else 0.0
-        calls += 1 if w[MARK + j] > 0.0 else 0
+        left = (lowest < least and below) or (highest > most and above)
+        w[LEAST + j], w[MOST + j], mark = lowest, highest, 1.0 if left and not wet else 0.0
+        w[MARK + j] = mark
+        calls += 1 if mark > 0.0 else 0
+    if reach[0] > 0.0:
+        calls += _turned(lanes, w, c, CELL, OUTERMOST, reach[0])
+    if reach[1] > 0.0:
+        calls += _turned(lanes, w, c, place[-2], FIRST, reach[1])
     return calls > 0
 
 
 @inner
-def measure(lanes: Index, w: FloatArray, c: FloatArray) -> None:
-    """Coldest and warmest cell; two cells at a time, from both ends, as this is all fetching and storing."""
+def _turned(lanes: Index, w: FloatArray, c: FloatArray, at: Index, stage: Index, reach: float) -> int:
+    """Mark lanes in which a cell passed the balance of the first stage and turned; returns how many are marked."""
+    wide()
+    calls = 0
     for j in range(lanes):
-        w[LOWEST + j], w[HIGHEST + j] = UNBOUNDED, -UNBOUNDED
-    outer, deeper = CELL, Index(c.size) - CELL - CELL
-    while outer <= deeper:
-        for j in range(lanes):
-            one, other = c[outer + STAGE + j], c[deeper + STAGE + j]
-            w[LOWEST + j] = min(w[LOWEST + j], min(one, other))
-            w[HIGHEST + j] = max(w[HIGHEST + j], max(one, other))
-        outer, deeper = outer + CELL, deeper - CELL
+        change, first = c[at + NOW + j] - c[at + OLD + j], w[stage + j] - c[at + OLD + j]
+        beyond, back = change - reach * first, CARRY * first - change
+        mark = max(w[MARK + j], 1.0 if beyond * back - TURN * abs(back) > 0.0 else 0.0)
+        w[MARK + j] = mark
+        calls += 1 if mark > 0.0 else 0
+    return calls
 
 
 @inner
-def go_back(lanes: Index, w: FloatArray, c: FloatArray) -> None:
-    """Marked lanes to the start of the step; what the others have reached is kept where the first stage was."""
-    for j in range(lanes):
-        w[EXTERIOR + j] = w[START + j] if w[MARK + j] > 0.0 else w[EXTERIOR + j]
-        w[INTERIOR + j] = w[INTERIOR_START + j] if w[MARK + j] > 0.0 else w[INTERIOR + j]
-    for at in range(CELL, Index(c.size) - CELL, CELL):
+def go_back(lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index]) -> None:
+    """All lanes to the start of the step; what they have reached is put away."""
+    wide()
+    for row in range(8):
+        kept, result = KEPT + Index(row * LANES), RESULTS[row]
         for j in range(lanes):
-            c[at + FIRST + j], c[at + STAGE + j] = c[at + STAGE + j], c[at + NOW + j]
+            w[kept + j] = w[result + j]
+    for i in range(place.size - 1):
+        at = place[i]
+        for j in range(lanes):
+            c[at + OLD + j], c[at + NOW + j] = c[at + NOW + j], c[at + OLD + j]
 
 
 @inner
-def join(lanes: Index, w: FloatArray, c: FloatArray) -> None:
+def join(lanes: Index, w: FloatArray) -> None:
     """Lanes without a mark take up again what they had reached before others were damped."""
-    for at in range(CELL, Index(c.size) - CELL, CELL):
+    for row in range(8):
+        kept, result = KEPT + Index(row * LANES), RESULTS[row]
         for j in range(lanes):
-            c[at + STAGE + j] = c[at + STAGE + j] if w[MARK + j] > 0.0 else c[at + FIRST + j]
-    measure(lanes, w, c)
+            w[result + j] = w[result + j] if w[MARK + j] > 0.0 else w[kept + j]
+    for j in range(lanes):
+        w[LEAST + j], w[MOST + j] = w[LOWEST + j], w[HIGHEST + j]

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.balance import Room, balance
+from sensorsim.thermal.balance import Exchange, Guess, Room, balance, leap, load
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Trace
-from sensorsim.thermal.damping import CARRY, GAMMA, bound, calls_for_damping, go_back, join
+from sensorsim.thermal.damping import CARRY, GAMMA, calls_for_damping, go_back, join
 from sensorsim.thermal.lanes import (
     ABSORBED,
     ABSORPTANCE,
@@ -23,8 +23,6 @@ from sensorsim.thermal.lanes import (
     CELL,
     EXCHANGE,
     EXTERIOR,
-    FILM_CUBED,
-    FIRST,
     FLUX,
     FORCED,
     HEAT,
@@ -32,32 +30,39 @@ from sensorsim.thermal.lanes import (
     INTERIOR_FLUX,
     INTERIOR_HEAT,
     INTERIOR_RISE,
+    INTERIOR_RISE_BEFORE,
     INTERIOR_START,
     LANES,
     LATER,
+    LATER_FLUX,
+    LATER_INTERIOR_FLUX,
     LEFT,
-    LOAD,
     LONGWAVE,
-    MARK,
-    MOVED,
-    NOW,
+    OUTERMOST,
     RIGHT,
     RISE,
-    SENT,
-    STAGE,
+    RISE_BEFORE,
     START,
     SUN,
-    UNBOUNDED,
+    WORK,
     Index,
     give,
     inner,
     note,
+    room_for,
+    scalar,
     take,
+    wide,
 )
+from sensorsim.thermal.passes import close, eliminate, substitute, turn
 
+Shared = tuple[float, float, float, float, float]  # air [C], vapour, room's air [C], radiant temperature [K], film
 NO_TRACE = Trace(np.zeros(0, dtype=np.int64), np.zeros((0, 2, 0)))
+# Of how far the last stage, the last step and the one before went: where the faces are looked for.
+FIRST_GUESS = (0.0, GAMMA + 0.5 * GAMMA * (1.0 + GAMMA), -0.5 * GAMMA * (1.0 + GAMMA))
+SECOND_GUESS = (1.0 / GAMMA, 0.0, 0.0)
+DAMPED_GUESS = (0.0, 1.0, 0.0)
 CHUNK = 64  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
-AIR, VAPOUR, ROOM_AIR, ROOM_RADIANT, ROOM_FILM = range(5)  # of what all columns share
 
 
 def advance(
@@ -69,27 +74,38 @@ def advance(
     `cells` is the wall factored for gamma `step`, `damped` for `step`; what `trace` asks for is written into it.
     """
     trace = NO_TRACE if trace is None else trace
-    w, c = np.zeros(int(ALL)), np.zeros((cells.factors.shape[0] + 2) * int(CELL))  # beyond either end an idle cell
+    place = np.arange(1, cells.outward.shape[0] + 2, dtype=Index) * CELL  # before and beyond them an idle cell
+    w, c = room_for(int(ALL)), room_for((place.size + 1) * int(CELL))
     lane = np.zeros(LANES, dtype=Index)  # made out here, so that the compiled code does not know how many
-    return int(_advance(w, c, lane, columns, cells, damped, outside, inside, first, last, step, trace))
+    return int(_advance(w, c, place, lane, columns, cells, damped, outside, inside, first, last, step, trace))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(
-    w: FloatArray, c: FloatArray, lane: NDArray[Index], columns: Columns, cells: Cells, damped: Cells,
-    outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
+    w: FloatArray, c: FloatArray, place: NDArray[Index], lane: NDArray[Index], columns: Columns, cells: Cells,
+    damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
+) -> int:  # fmt: skip
+    """Steps of all blocks in turn, by code that counts no references to arrays, which would take longer than a step."""
+    return _all(w, c, place, lane, columns, cells, damped, outside, inside, first, last, step, trace)
+
+
+@inner
+def _all(
+    w: FloatArray, c: FloatArray, place: NDArray[Index], lane: NDArray[Index], columns: Columns, cells: Cells,
+    damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, a chunk at a time."""
-    lanes, shared, failures = Index(lane.size), np.zeros((2, 5)), 0
+    lanes, failures = Index(lane.size), 0
     for start in range(first, last, CHUNK):
         stop = min(start + CHUNK, last)
         for begin in range(0, columns.orientation.size, lane.size):
             take(lanes, w, c, lane, columns, outside.free, outside.free_colder, begin)
             sample(lanes, w, lane, outside, start)
+            eliminate(lanes, w, c, place, cells.outward, cells.exchange[0, 4])
             for k in range(start, stop):
                 sample(lanes, w, lane, outside, k + 1)
-                share(shared, outside, inside, k)
-                failures += _step(lanes, w, c, shared, cells, damped, outside, inside, step)
+                early, late = share(outside, inside, k), share(outside, inside, k + 1)
+                failures += _step(lanes, w, c, place, early, late, cells, damped, outside, inside, step)
                 if trace.row.size > 0 and trace.row[k + 1] >= 0:
                     note(lanes, w, trace.faces[trace.row[k + 1]], begin)
             give(lanes, w, c, columns, begin)
@@ -99,9 +115,10 @@ def _advance(
 @inner
 def sample(lanes: Index, w: FloatArray, lane: NDArray[Index], outside: Outside, k: int) -> None:
     """The second sample of the last step becomes the first of the next, k its second; all lanes start from its end."""
+    wide()
     irradiance, longwave, film, emissivity = outside.irradiance, outside.longwave, outside.film, outside.emissivity
     for j in range(lanes):
-        w[MARK + j], w[START + j], w[INTERIOR_START + j] = 1.0, w[EXTERIOR + j], w[INTERIOR + j]
+        w[START + j], w[INTERIOR_START + j] = w[EXTERIOR + j], w[INTERIOR + j]
     for j in range(LATER):
         w[ABSORBED + j] = w[LATER + ABSORBED + j]
     for j in range(lanes):
@@ -115,122 +132,94 @@ def sample(lanes: Index, w: FloatArray, lane: NDArray[Index], outside: Outside, 
 
 
 @inner
-def share(shared: FloatArray, outside: Outside, inside: Inside, k: int) -> None:
-    """What all columns have in common at both samples of step k."""
-    for row in range(2):
-        shared[row, AIR], shared[row, VAPOUR] = outside.air[k + row] - ZERO_CELSIUS, outside.vapour[k + row]
-        shared[row, ROOM_AIR], shared[row, ROOM_FILM] = inside.air[k + row] - ZERO_CELSIUS, inside.film[k + row]
-        shared[row, ROOM_RADIANT] = inside.radiant[k + row]
+def share(outside: Outside, inside: Inside, k: int) -> Shared:
+    """What all columns have in common at a sample."""
+    air, room = outside.air[k] - ZERO_CELSIUS, inside.air[k] - ZERO_CELSIUS
+    return (air, outside.vapour[k], room, inside.radiant[k], inside.film[k])
 
 
 @inner
 def _step(
-    lanes: Index, w: FloatArray, c: FloatArray, shared: FloatArray, cells: Cells, damped: Cells, outside: Outside,
-    inside: Inside, step: float,
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], early: Shared, late: Shared, cells: Cells,
+    damped: Cells, outside: Outside, inside: Inside, step: float,
 ) -> int:  # fmt: skip
     """One step of one block: two stages and, where lanes call for it, backward Euler; returns failed balances."""
-    wet, low, high = outside.latent.shape[0] > 1, UNBOUNDED, -UNBOUNDED
-    surfaces = (outside.emissivity * SIGMA, inside.emissivity * SIGMA, inside.free)
-    failures = _stage(lanes, w, c, shared, surfaces, cells, wet, GAMMA, 0.0, 1.0 - GAMMA)
-    failures += _stage(lanes, w, c, shared, surfaces, cells, wet, 1.0, CARRY, GAMMA)
-    for row in range(2):
-        air, room, radiant = shared[row, AIR], shared[row, ROOM_AIR], shared[row, ROOM_RADIANT] - ZERO_CELSIUS
-        low, high = min(low, air, room, radiant), max(high, air, room, radiant)
-    bound(lanes, w, low, high)
-    if calls_for_damping(lanes, w, c, cells.factors, wet):
-        go_back(lanes, w, c)
-        failures += _stage(lanes, w, c, shared, surfaces, damped, wet, 1.0, 0.0, 1.0)
-        join(lanes, w, c)
+    first, second, whole = _swap(cells.exchange, 0), _swap(cells.exchange, 1), _swap(damped.exchange, 0)
+    failures = _faces(lanes, w, early, late, outside, inside, first, GAMMA, FIRST_GUESS)
+    flow(lanes, w, first, Index(0))
+    if cells.reach[0] > 0.0:
+        outermost(lanes, w, c, cells.outward)
+    turn(lanes, w, c, place, cells.outward, cells.inward, second[4], CARRY)
+    failures += _faces(lanes, w, early, late, outside, inside, second, 1.0, SECOND_GUESS)
+    flow(lanes, w, second, LATER_FLUX - FLUX)
+    close(lanes, w, c, place, cells.inward, cells.outward, first[4])
+    low = min(min(early[0], late[0]), min(early[2], late[2]), min(early[3], late[3]) - ZERO_CELSIUS)
+    high = max(max(early[0], late[0]), max(early[2], late[2]), max(early[3], late[3]) - ZERO_CELSIUS)
+    if calls_for_damping(lanes, w, c, place, low, high, cells.reach, outside.latent.shape[0] > 1):
+        go_back(lanes, w, c, place)
+        eliminate(lanes, w, c, place, damped.outward, whole[4])
+        failures += _faces(lanes, w, early, late, outside, inside, whole, 1.0, DAMPED_GUESS)
+        flow(lanes, w, whole, Index(0))
+        flow(lanes, w, whole, LATER_FLUX - FLUX)
+        substitute(lanes, w, c, place, damped.outward)
+        join(lanes, w)
+        eliminate(lanes, w, c, place, cells.outward, first[4])
     settle(lanes, w, step)
     return failures
+
+
+@scalar
+def _swap(exchange: FloatArray, row: int) -> Exchange:
+    return (exchange[row, 0], exchange[row, 1], exchange[row, 2], exchange[row, 3], exchange[row, 4])
+
+
+@inner
+def outermost(lanes: Index, w: FloatArray, c: FloatArray, ended: FloatArray) -> None:
+    """The outermost cell after the first stage."""
+    wide()
+    for j in range(lanes):
+        w[OUTERMOST + j] = c[CELL + WORK + j] + ended[0, 3] * w[EXTERIOR + j] + ended[0, 4] * w[INTERIOR + j]
+
+
+@inner
+def flow(lanes: Index, w: FloatArray, exchange: Exchange, at: Index) -> None:
+    """Flux through the faces, as the cells have it."""
+    wide()
+    a, b, c, d, _ = exchange
+    for j in range(lanes):
+        ext, inn = w[EXTERIOR + j], w[INTERIOR + j]
+        w[at + FLUX + j] = a * ext - b * inn - w[LEFT + j]
+        w[at + INTERIOR_FLUX + j] = d * inn - c * ext - w[RIGHT + j]
 
 
 @inner
 def settle(lanes: Index, w: FloatArray, step: float) -> None:
     """End of a step: heat that has entered, and how far the faces went."""
+    wide()
+    early, late = (1.0 - GAMMA) * step, GAMMA * step
     for j in range(lanes):
-        w[HEAT + j] += step * w[FLUX + j]
-        w[INTERIOR_HEAT + j] += step * w[INTERIOR_FLUX + j]
+        w[HEAT + j] += early * w[FLUX + j] + late * w[LATER_FLUX + j]
+        w[INTERIOR_HEAT + j] += early * w[INTERIOR_FLUX + j] + late * w[LATER_INTERIOR_FLUX + j]
+        w[RISE_BEFORE + j], w[INTERIOR_RISE_BEFORE + j] = w[RISE + j], w[INTERIOR_RISE + j]
         w[RISE + j], w[INTERIOR_RISE + j] = w[EXTERIOR + j] - w[START + j], w[INTERIOR + j] - w[INTERIOR_START + j]
 
 
-@inner
-def load(lanes: Index, w: FloatArray, at: float, guess: float) -> None:
-    """What acts on the exterior face at a fraction `at` of the step; faces go on by `guess` of their last rise."""
-    rest = 1.0 - at
-    for j in range(lanes):
-        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
-        w[FILM_CUBED + j], w[MOVED + j] = forced * forced * forced, UNBOUNDED * w[MARK + j]
-        w[LOAD + j] = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j]
-        w[EXTERIOR + j] += guess * w[MARK + j] * w[RISE + j]
-        w[INTERIOR + j] += guess * w[MARK + j] * w[INTERIOR_RISE + j]
-
-
-@inner
-def room_at(shared: FloatArray, at: float, free: float, grey: float) -> Room:
+@scalar
+def room_at(early: Shared, late: Shared, at: float, free: float, grey: float) -> Room:
     """What acts on the interior face at a fraction of the step."""
     rest = 1.0 - at
-    air, film = (
-        rest * shared[0, ROOM_AIR] + at * shared[1, ROOM_AIR],
-        rest * shared[0, ROOM_FILM] + at * shared[1, ROOM_FILM],
-    )
-    radiant = rest * shared[0, ROOM_RADIANT] + at * shared[1, ROOM_RADIANT]
+    air, radiant, film = rest * early[2] + at * late[2], rest * early[3] + at * late[3], rest * early[4] + at * late[4]
     return (air, grey * radiant * radiant * radiant * radiant, film * film * film, free, grey)
 
 
 @inner
-def _stage(
-    lanes: Index, w: FloatArray, c: FloatArray, shared: FloatArray, surfaces: tuple[float, float, float],
-    wall: Cells, wet: bool, at: float, carry: float, weight: float,
+def _faces(
+    lanes: Index, w: FloatArray, early: Shared, late: Shared, outside: Outside, inside: Inside, exchange: Exchange,
+    at: float, guess: Guess,
 ) -> int:  # fmt: skip
-    """Solve a stage at a fraction `at` of the step for the lanes that are marked; returns failed balances.
-
-    A second stage goes on from the first by `carry`, and its flux, which counts by `weight`, adds to the first one's.
-    """
-    rest, grey, room_grey = 1.0 - at, surfaces[0], surfaces[1]
-    air, vapour = rest * shared[0, AIR] + at * shared[1, AIR], rest * shared[0, VAPOUR] + at * shared[1, VAPOUR]
-    load(lanes, w, at, 1.0 - GAMMA if carry > 0.0 else at)
-    _eliminate(lanes, w, c, wall.factors, wall.exchange[4], carry)
-    room = room_at(shared, at, surfaces[2], room_grey)
-    moving = balance(lanes, w, wall.exchange, grey, air, vapour, room, wet, at)
-    _substitute(lanes, w, c, wall.exchange, wall.factors, 0.0 if carry == 0.0 else 1.0, weight)
-    return moving
-
-
-@inner
-def _eliminate(lanes: Index, w: FloatArray, c: FloatArray, factors: FloatArray, outermost: float, carry: float) -> None:
-    """Elimination of the cells, innermost first, for faces at 0 C, and what the cells then send to the faces."""
-    at = Index(c.size) - CELL  # its loops touch c alone: on a way backwards the compiler could not tell it from w
-    for i in range(factors.shape[0] - 1, -1, -1):
-        at -= CELL
-        own, inward, sent = factors[i, 0], factors[i, 1], factors[i, 2]
-        if carry == 0.0:
-            for j in range(lanes):
-                star = c[at + STAGE + j]
-                c[at + NOW + j], c[at + SENT + j] = star, c[at + CELL + SENT + j] + sent * star
-                c[at + STAGE + j] = own * star + inward * c[at + CELL + STAGE + j]
-        else:
-            for j in range(lanes):
-                star = c[at + NOW + j] + carry * (c[at + STAGE + j] - c[at + NOW + j])
-                c[at + FIRST + j], c[at + SENT + j] = c[at + STAGE + j], c[at + CELL + SENT + j] + sent * star
-                c[at + STAGE + j] = own * star + inward * c[at + CELL + STAGE + j]
-    for j in range(lanes):
-        w[LEFT + j], w[RIGHT + j] = outermost * c[at + STAGE + j], c[at + SENT + j]
-
-
-@inner
-def _substitute(
-    lanes: Index, w: FloatArray, c: FloatArray, exchange: FloatArray, factors: FloatArray, keep: float, weight: float
-) -> None:
-    """Flux through the faces, `keep` of what it was and `weight` of this; back substitution of the cells."""
-    for j in range(lanes):
-        ext, inn, marked = w[EXTERIOR + j], w[INTERIOR + j], w[MARK + j] > 0.0
-        flux = keep * w[FLUX + j] + weight * (exchange[0] * ext - exchange[1] * inn - w[LEFT + j])
-        flux_inside = keep * w[INTERIOR_FLUX + j] + weight * (exchange[3] * inn - exchange[2] * ext - w[RIGHT + j])
-        w[FLUX + j] = flux if marked else w[FLUX + j]
-        w[INTERIOR_FLUX + j] = flux_inside if marked else w[INTERIOR_FLUX + j]
-        c[STAGE + j] = ext
-    for i in range(factors.shape[0]):
-        at, outward, face = Index(i + 1) * CELL, factors[i, 3], factors[i, 4]
-        for j in range(lanes):
-            c[at + STAGE + j] += outward * c[at - CELL + STAGE + j] + face * w[INTERIOR + j]
+    """Solve both faces at a fraction `at` of the step; returns failed balances."""
+    wet, rest, grey = outside.latent.shape[0] > 1, 1.0 - at, outside.emissivity * SIGMA
+    air, vapour = rest * early[0] + at * late[0], rest * early[1] + at * late[1]
+    room = room_at(early, late, at, inside.free, inside.emissivity * SIGMA)
+    moving = load(lanes, w, at, guess) if wet else leap(lanes, w, exchange, grey, air, room, at, guess)
+    return balance(lanes, w, exchange, grey, air, vapour, room, wet, at, moving)

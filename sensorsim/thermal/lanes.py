@@ -9,7 +9,8 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numpy as np
-from numba import njit
+from numba import njit, types
+from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from sensorsim.thermal.boundary import Columns, FloatArray
@@ -18,25 +19,66 @@ F = TypeVar("F", bound=Callable[..., object])
 Index = np.uint64
 LANES = 32
 UNBOUNDED = 1e9  # [K], [W m-2]
-ROW = [Index(LANES * row) for row in range(38)]
+ROW = [Index(LANES * row) for row in range(52)]
 # What a column carries from step to step, in the order of `Columns.carried`, and what it never changes.
-EXTERIOR, INTERIOR, EXTERIOR_FILM, INTERIOR_FILM, HEAT, INTERIOR_HEAT, RISE, INTERIOR_RISE = ROW[0:8]
-ABSORPTANCE, FREE, FREE_COLDER = ROW[8:11]
+EXTERIOR, INTERIOR, PER_FILM, INTERIOR_PER_FILM, HEAT, INTERIOR_HEAT = ROW[0:6]
+RISE, INTERIOR_RISE, RISE_BEFORE, INTERIOR_RISE_BEFORE = ROW[6:10]
+ABSORPTANCE, FREE, FREE_COLDER = ROW[10:13]
 # Its load at a step's first sample, and LATER at its second.
-ABSORBED, FORCED, EXCHANGE, SUN, LONGWAVE, LATER = *ROW[11:16], ROW[5]
-# The stage that is being solved; the start of the step; the range that its cells may have and the one they have.
-LOAD, FILM_CUBED, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, FLUX, INTERIOR_FLUX = ROW[21:30]
-START, INTERIOR_START, LEAST, MOST, LOWEST, HIGHEST, MARK, ALL = ROW[30:38]
-# Rows of each cell: in the stage, before the step, after its first stage, what all from here inward send to the room.
-STAGE, NOW, FIRST, SENT, CELL = ROW[0:5]
+ABSORBED, FORCED, EXCHANGE, SUN, LONGWAVE, LATER = *ROW[13:18], ROW[5]
+# The stage that is being solved; fluxes of the first and of the second; the range of the cells before and after.
+LOAD, FILM_CUBED, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, FIRST, OUTERMOST = ROW[23:32]
+FLUX, INTERIOR_FLUX, LATER_FLUX, LATER_INTERIOR_FLUX = ROW[32:36]
+START, INTERIOR_START, LEAST, MOST, LOWEST, HIGHEST, MARK = ROW[36:43]
+KEPT, ALL = ROW[43], ROW[51]
+# Rows of each cell: now, as eliminated so far, before the step.
+NOW, WORK, OLD, CELL = ROW[0:4]
 
 
 def inner(function: F) -> F:
-    """Compile what only compiled code calls, without the wrappers for others, which take longer than the function."""
+    """Compile what only compiled code calls: no wrappers for others, and no counting of references to what it is lent.
+
+    Either would take longer than the function.
+    """
     compiler = cast("Any", njit)(
-        nogil=True, error_model="numpy", fastmath={"contract"}, no_cpython_wrapper=True, no_cfunc_wrapper=True
+        nogil=True,
+        error_model="numpy",
+        fastmath={"contract"},
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        _nrt=False,
     )
     return cast("F", compiler(function))
+
+
+def scalar(function: F) -> F:
+    """Compile a part of a loop's body, so that the loop is compiled as one."""
+    compiler = cast("Any", njit)(
+        nogil=True, error_model="numpy", fastmath={"contract"}, no_cpython_wrapper=True, no_cfunc_wrapper=True,
+        forceinline=True,
+    )  # fmt: skip
+    return cast("F", compiler(function))
+
+
+def _widest(_context: object) -> tuple[Any, Any]:
+    """Let the function that this stands in use the widest vectors there are; the compiler prefers narrower ones."""
+
+    def generate(context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
+        set.add(builder.function.attributes, '"prefer-vector-width"="512"')  # llvmlite knows no attribute with a value
+        return context.get_dummy_value()
+
+    return types.void(), generate
+
+
+wide = cast("Callable[[], None]", intrinsic(_widest))
+
+
+def room_for(count: int) -> FloatArray:
+    """Zeros that begin where a vector does in memory: one that lies across two lines of it takes twice as long."""
+    line = 64  # bytes
+    room = np.zeros(count + line // 8)
+    first = -room.ctypes.data % line // 8
+    return room[first : first + count]
 
 
 @inner
@@ -50,17 +92,17 @@ def take(
         k = min(Index(begin) + j, last)
         lane[j] = columns.orientation[k]
         w[FREE + j], w[FREE_COLDER + j] = free[lane[j]], free_colder[lane[j]]
-        w[ABSORPTANCE + j], w[LOWEST + j], w[HIGHEST + j] = columns.absorptance[k], UNBOUNDED, -UNBOUNDED
+        w[ABSORPTANCE + j], w[LEAST + j], w[MOST + j] = columns.absorptance[k], UNBOUNDED, -UNBOUNDED
     for row in range(columns.carried.shape[0]):
         to, carried = Index(row) * Index(LANES), columns.carried[row]
         for j in range(lanes):
             w[to + j] = carried[min(Index(begin) + j, last)]
     for i in range(columns.cells.shape[0]):
-        at, cells = Index(i + 1) * CELL + STAGE, columns.cells[i]
+        at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
         for j in range(lanes):
             c[at + j] = cells[min(Index(begin) + j, last)]
         for j in range(lanes):
-            w[LOWEST + j], w[HIGHEST + j] = min(w[LOWEST + j], c[at + j]), max(w[HIGHEST + j], c[at + j])
+            w[LEAST + j], w[MOST + j] = min(w[LEAST + j], c[at + j]), max(w[MOST + j], c[at + j])
 
 
 @inner
@@ -72,7 +114,7 @@ def give(lanes: Index, w: FloatArray, c: FloatArray, columns: Columns, begin: in
         for j in range(count):
             carried[start + j] = w[at + j]
     for i in range(columns.cells.shape[0]):
-        at, cells = Index(i + 1) * CELL + STAGE, columns.cells[i]
+        at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
         for j in range(count):
             cells[start + j] = c[at + j]
 

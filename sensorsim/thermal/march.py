@@ -166,7 +166,7 @@ def _start(
     faces = np.broadcast_to(ends, (2, count)) - ZERO_CELSIUS
     return Columns(
         cells=np.array(cells - ZERO_CELSIUS),
-        carried=np.concatenate([faces, np.full((2, count), 5.0), np.zeros((4, count))]),
+        carried=np.concatenate([faces, np.full((2, count), 0.2), np.zeros((6, count))]),
         orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),
         absorptance=np.tile(absorptances, outside.irradiance.shape[1]),
     )

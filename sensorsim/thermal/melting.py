@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.balance import balance, evaporate
+from sensorsim.thermal.balance import balance, evaporate, load
 from sensorsim.thermal.boundary import Columns, FloatArray, Inside, Outside
 from sensorsim.thermal.grid import LayerLike, WallGrid
-from sensorsim.thermal.kernel import AIR, VAPOUR, load, room_at, sample, settle, share
+from sensorsim.thermal.kernel import DAMPED_GUESS, Shared, room_at, sample, settle, share
 from sensorsim.thermal.lanes import (
     ALL,
     CELL,
@@ -35,11 +35,13 @@ from sensorsim.thermal.lanes import (
     INTERIOR,
     INTERIOR_FLUX,
     LATENT,
+    LATER_FLUX,
+    LATER_INTERIOR_FLUX,
     LEFT,
     LOAD,
     MOVED,
+    NOW,
     RIGHT,
-    STAGE,
     UNBOUNDED,
     Index,
     give,
@@ -99,13 +101,13 @@ def _advance(
     outside: Outside, inside: Inside, first: int, last: int, step: float,
 ) -> int:  # fmt: skip
     """Steps of all columns in turn."""
-    shared, exchange, failures, one = np.zeros((2, 5)), np.zeros(5), 0, Index(lane.size)
+    exchange, failures, one = np.zeros(5), 0, Index(lane.size)
     for column in range(columns.orientation.size):
         take(one, w, c, lane, columns, outside.free, outside.free_colder, column)
         sample(one, w, lane, outside, first)
         for k in range(first, last):
             sample(one, w, lane, outside, k + 1)
-            share(shared, outside, inside, k)
+            shared = share(outside, inside, k + 1)
             failures += _step(one, w, c, v, shared, exchange, taken[:, column], wall, outside, inside, step)
             settle(one, w, step)
         give(one, w, c, columns, column)
@@ -114,23 +116,25 @@ def _advance(
 
 @inner
 def _step(
-    one: Index, w: FloatArray, c: FloatArray, v: FloatArray, shared: FloatArray, exchange: FloatArray,
+    one: Index, w: FloatArray, c: FloatArray, v: FloatArray, shared: Shared, exchange: FloatArray,
     taken: FloatArray, wall: Thaw, outside: Outside, inside: Inside, step: float,
 ) -> int:  # fmt: skip
     """One step of one column; returns failures."""
     wet, grey, failures = outside.latent.shape[0] > 1, outside.emissivity * SIGMA, 0
-    room = room_at(shared, 1.0, inside.free, inside.emissivity * SIGMA)
-    air, vapour = shared[1, AIR], shared[1, VAPOUR]
+    room = room_at(shared, shared, 1.0, inside.free, inside.emissivity * SIGMA)
+    air, vapour = shared[0], shared[1]
     for i in range(v.shape[1]):
-        v[CONTENT, i] = (wall.capacity[i] * c[Index(i + 1) * CELL + STAGE] + taken[i]) / step
+        v[CONTENT, i] = (wall.capacity[i] * c[Index(i + 1) * CELL + NOW] + taken[i]) / step
         v[STATE, i] = FROZEN if taken[i] <= 0.0 else (MELTING if wall.drains or taken[i] < wall.latent[i] else MELTED)
-    load(one, w, 1.0, 1.0)
+    load(one, w, 1.0, DAMPED_GUESS)
     gain = _gain_at_zero(one, w, grey, air, vapour, wet)
     held, changed = False, True
     for _ in range(GUESSES):
         _eliminate(w, v, exchange, wall, step, held, gain)
         w[MOVED] = UNBOUNDED
-        failures = balance(one, w, exchange, grey, air, vapour, room, wet, 1.0)
+        failures = balance(
+            one, w, (exchange[0], exchange[1], exchange[2], exchange[3], 0.0), grey, air, vapour, room, wet, 1.0, 1
+        )
         _substitute(w, c, v, wall, held, gain)
         turned = wall.drains and wall.latent[0] > 0.0 and _turns(w, c, wall, held, gain)
         held = held != turned
@@ -190,24 +194,25 @@ def _substitute(w: FloatArray, c: FloatArray, v: FloatArray, wall: Thaw, held: b
     w[EXTERIOR] = before
     for i in range(n):
         before = v[OWN, i] + v[OUTWARD, i] * before + v[ROOM, i] * w[INTERIOR]
-        c[Index(i + 1) * CELL + STAGE] = before
-    w[FLUX] = gain if held else wall.conductance[0] * (w[EXTERIOR] - c[CELL + STAGE])
+        c[Index(i + 1) * CELL + NOW] = before
+    w[FLUX] = gain if held else wall.conductance[0] * (w[EXTERIOR] - c[CELL + NOW])
     w[INTERIOR_FLUX] = wall.conductance[n] * (w[INTERIOR] - before)
-    c[STAGE], c[Index(n + 1) * CELL + STAGE] = w[EXTERIOR], w[INTERIOR]
+    w[LATER_FLUX], w[LATER_INTERIOR_FLUX] = w[FLUX], w[INTERIOR_FLUX]
+    c[NOW], c[Index(n + 1) * CELL + NOW] = w[EXTERIOR], w[INTERIOR]
 
 
 @inner
 def _turns(w: FloatArray, c: FloatArray, wall: Thaw, held: bool, gain: float) -> bool:
     """Whether the face begins or ends to be held at 0 C."""
     if held:
-        return bool(gain + wall.conductance[0] * c[CELL + STAGE] < 0.0)
+        return bool(gain + wall.conductance[0] * c[CELL + NOW] < 0.0)
     return bool(w[EXTERIOR] > 0.0)
 
 
 @inner
 def _content(c: FloatArray, v: FloatArray, wall: Thaw, i: int, held: bool, gain: float) -> float:
     """Heat [J m-2] over the step [s] that a cell at 0 C ends with."""
-    at = Index(i + 1) * CELL + STAGE
+    at = Index(i + 1) * CELL + NOW
     outer = gain if held and i == 0 else wall.conductance[i] * (c[at - CELL] - c[at])
     return float(v[CONTENT, i] + outer + wall.conductance[i + 1] * (c[at + CELL] - c[at]))
 
@@ -217,7 +222,7 @@ def _guess_frozen(c: FloatArray, v: FloatArray, wall: Thaw, held: bool, gain: fl
     """Cells that begin to melt, or freeze to the end; whether there are any."""
     changed = False
     for i in range(v.shape[1]):
-        if v[STATE, i] == FROZEN and wall.latent[i] > 0.0 and c[Index(i + 1) * CELL + STAGE] > 0.0:
+        if v[STATE, i] == FROZEN and wall.latent[i] > 0.0 and c[Index(i + 1) * CELL + NOW] > 0.0:
             v[STATE, i], changed = MELTING, True
         elif v[STATE, i] == MELTING and _content(c, v, wall, i, held, gain) < -NEGLIGIBLE:
             v[STATE, i], changed = FROZEN, True
@@ -229,7 +234,7 @@ def _guess_melted(c: FloatArray, v: FloatArray, wall: Thaw, step: float, held: b
     """Cells that melt to the end, or begin to freeze; whether there are any. What drains stays as it is."""
     changed = False
     for i in range(v.shape[1]):
-        if v[STATE, i] == MELTED and c[Index(i + 1) * CELL + STAGE] < 0.0:
+        if v[STATE, i] == MELTED and c[Index(i + 1) * CELL + NOW] < 0.0:
             v[STATE, i], changed = MELTING, True
             continue
         most = UNBOUNDED if wall.drains else wall.latent[i] / step + NEGLIGIBLE

@@ -33,7 +33,7 @@ class WallSteps:
         self.grid, self.surface = grid, surface
         self.columns = Columns(
             cells=np.zeros((grid.capacity.size, 1)),
-            carried=np.array([[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0]]).T.copy(),
+            carried=np.array([[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]]).T.copy(),
             orientation=np.zeros(1, dtype=np.int64),
             absorptance=np.array([surface.absorptance]),
         )
@@ -77,9 +77,6 @@ class WallSteps:
         return passed
 
     def _advance(self, outside: Outside, inside: Inside, begin: int, end: int, step: float) -> None:
-        # Newton's cube root comes down to a film fast and comes up from a film of zero slowly: begin above both ends.
-        self.columns.films[0] = max(outside.film[begin, 0], outside.film[end, 0], 1e-9)
-        self.columns.films[1] = max(inside.film[begin], inside.film[end], 1e-9)
         inside = per_exterior_area(inside, self.grid.interior_area)
         step = float(f"{step:.8e}")  # so that steps alike to nine digits, as times with fractions have, share factors
         cells, damped = self._factored(step)
