@@ -24,6 +24,7 @@ COARSE = BakeSettings(
     reflectances=(0.1, 0.9),
     degree=1,
     step=1200.0,
+    lead_in_stride=3,  # an hour
     slice_interval=3600.0,
     lead_in_days=1.0,
 )
