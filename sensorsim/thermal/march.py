@@ -13,7 +13,8 @@ from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
 from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import advance
-from sensorsim.thermal.melting import Thaw, advance_melting, latent_heat
+from sensorsim.thermal.melting import advance_melting, latent_heat
+from sensorsim.thermal.melting_cells import Thaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
