@@ -21,10 +21,12 @@ from sensorsim.thermal.lanes import (
     NOW,
     OLD,
     RIGHT,
+    START,
     UNBOUNDED,
     WORK,
     Index,
     inner,
+    room_for,
     wide,
 )
 
@@ -35,10 +37,11 @@ NEGLIGIBLE = 1e-10  # [W m-2] that a cell may lack of being frozen, so that roun
 STATE, NEXT, OUTWARD, ROOM, TAKEN, MELTING_CELL = [Index(LANES * row) for row in range(6)]
 # Of a column: whether its face is held at 0 C and what it then takes in [W m-2], whether it has settled; flux into the
 # exterior face per kelvin of itself and, away, of the interior one, into that by the exterior one, away, and by itself.
-_ROW = [ALL + Index(LANES * row) for row in range(14)]
+_ROW = [ALL + Index(LANES * row) for row in range(16)]
 HELD, GAIN, SETTLED, BY_FACE, FROM_ROOM, TO_ROOM, BY_ROOM = _ROW[0:7]
-# What a cell does not lose to the one outward of it; own part of the innermost linear cell; the cell before.
-KEPT_BACK, INNERMOST, BEFORE, COLDER, WARMER, TURNED, MELTING_ROWS = _ROW[7:14]
+# What a cell does not lose to the one outward of it; own part of the innermost linear cell; heat from the cell before;
+# whether cells freeze or begin to melt, any change, the face turns; film at 0 C, cubed, and its inverse.
+KEPT_BACK, INNERMOST, BEFORE, COLDER, WARMER, TURNED, CUBED, ROOT, MELTING_ROWS = _ROW[7:16]
 
 
 class Thaw(NamedTuple):
@@ -55,7 +58,7 @@ class Block(NamedTuple):
 
     c: FloatArray  # rows of all cells
     v: FloatArray  # rows of those that melt, and one beyond
-    linear: FloatArray  # (n + 1, 5) of cells that do not: by content, conductance inward [W m-2 K-1], by outward, room
+    linear: FloatArray  # (n + 1, 4) of cells that do not: by content, conductance inward [W m-2 K-1], by outward, room
     whole: FloatArray  # (4,) kept and room of the outermost of them; the innermost one by what melts and by the room
     place: NDArray[Index]  # (n + 2,) of all cells in `c`, faces included
     spot: NDArray[Index]  # (p + 1,) of those that melt in `v`
@@ -65,7 +68,7 @@ def block_of(wall: Thaw) -> Block:
     """Room for a block of columns."""
     n, melting = wall.capacity.size, int(np.count_nonzero(wall.latent))
     place, spot = np.arange(n + 2, dtype=Index) * CELL, np.arange(melting + 1, dtype=Index) * MELTING_CELL
-    c, v = np.zeros((n + 2) * int(CELL)), np.zeros((melting + 1) * int(MELTING_CELL))
+    c, v = room_for((n + 2) * int(CELL)), room_for((melting + 1) * int(MELTING_CELL))
     return Block(c, v, np.zeros((n + 1, 4)), np.zeros(4), place, spot)
 
 
@@ -103,7 +106,8 @@ def begin(lanes: Index, w: FloatArray, wall: Thaw, block: Block, step: float) ->
         for j in range(lanes):
             c[at + WORK + j] = own * (heat * c[at + NOW + j] + inward * c[at + CELL + WORK + j])
     for j in range(lanes):
-        w[INNERMOST + j], w[SETTLED + j], w[HELD + j] = 0.0, 0.0, 0.0
+        w[INNERMOST + j], w[SETTLED + j] = 0.0, 0.0
+        w[HELD + j] = 1.0 if wall.drains and w[START + j] == 0.0 else 0.0
     for i in range(p, wall.capacity.size):
         at, outward = block.place[i + 1], block.linear[i, 2]
         for j in range(lanes):

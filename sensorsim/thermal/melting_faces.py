@@ -1,9 +1,7 @@
 """The faces of a block of columns that melt: each column exchanges heat with its cells in a way of its own."""
 
-import numpy as np
-
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.balance import ITERATION_LIMIT, TOLERANCE, Room, evaporate, newton
+from sensorsim.thermal.balance import ITERATION_LIMIT, TOLERANCE, Room, evaporate, newton, step_film
 from sensorsim.thermal.boundary import FloatArray
 from sensorsim.thermal.lanes import (
     CELL,
@@ -33,29 +31,53 @@ from sensorsim.thermal.lanes import (
 from sensorsim.thermal.melting_cells import (
     BY_FACE,
     BY_ROOM,
+    CUBED,
     FROM_ROOM,
     GAIN,
     HELD,
+    ROOT,
     SETTLED,
     TO_ROOM,
+    TURNED,
     Block,
     Thaw,
 )
 
+NEAR = 1e-4  # [-] last step of a cube root, of which a step of fourth order leaves only rounding
 AT_REST = -2.0  # [K] move of a face that has settled, below any that has not
 
 
 @inner
 def gain_at_zero(lanes: Index, w: FloatArray, grey: float, air: float, vapour: float, wet: bool) -> None:
     """Heat [W m-2] that the exterior face takes from its surroundings at 0 C."""
+    wide()
+    warmer = air < 0.0
     for j in range(lanes):
-        w[GAIN + j], w[EXTERIOR + j] = w[EXTERIOR + j], 0.0
+        lift = (w[FREE + j] if warmer else w[FREE_COLDER + j]) * abs(air)
+        w[CUBED + j], w[ROOT + j], w[TURNED + j] = w[FILM_CUBED + j] + lift, w[PER_FILM + j], UNBOUNDED
+        w[GAIN + j], w[EXTERIOR + j], w[LATENT + j] = w[EXTERIOR + j], 0.0, 0.0
     if wet:
         evaporate(lanes, w, vapour, 1.0)
+    moving, rounds = 1, 0
+    while moving > 0 and rounds < ITERATION_LIMIT:
+        moving, rounds = _approach_film(lanes, w), rounds + 1
+    lost = grey * ZERO_CELSIUS**4
     for j in range(lanes):
-        w[EXTERIOR + j] = w[GAIN + j]
-        film = np.cbrt(w[FILM_CUBED + j] + (w[FREE + j] if air < 0.0 else w[FREE_COLDER + j]) * abs(air))
-        w[GAIN + j] = w[LOAD + j] + film * air - grey * ZERO_CELSIUS**4 - (w[LATENT + j] if wet else 0.0)
+        film = w[CUBED + j] * (w[ROOT + j] * w[ROOT + j])
+        w[EXTERIOR + j], w[GAIN + j] = w[GAIN + j], w[LOAD + j] + film * air - lost - w[LATENT + j]
+
+
+@inner
+def _approach_film(lanes: Index, w: FloatArray) -> int:
+    """One step of the inverse cube roots that have not come near; returns how many go on."""
+    wide()
+    moving = 0
+    for j in range(lanes):
+        still = w[TURNED + j] <= NEAR
+        root, turned = step_film(w[ROOT + j], w[CUBED + j])
+        w[ROOT + j], w[TURNED + j] = w[ROOT + j] if still else root, w[TURNED + j] if still else turned
+        moving += 1 if not still and turned > NEAR else 0
+    return moving
 
 
 @inner
