@@ -76,7 +76,7 @@ def march(
     walls = factor(grid, GAMMA * step, step), factor(grid, step, step)
     thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
     before, taken = grid.capacity @ columns.cells, _taken(columns, thaw)
-    held, run = taken.sum(axis=0), _Run(columns, taken, walls, thaw, outside, inside, step)
+    held, run = _sum_of_cells(taken), _Run(columns, taken, walls, thaw, outside, inside, step)
     nodes = np.zeros((record.size, *columns.cells.shape)) if keep_nodes else None
     if nodes is None and grid.interior_area > 0.0 and not np.any(latent) and np.all(np.diff(record) > 0):
         faces = _march_through(run, record)
@@ -90,7 +90,7 @@ def march(
         nodes=None if nodes is None else nodes.reshape(record.size, -1, *shape) + ZERO_CELSIUS,
         heat=columns.heat.reshape(2, *shape),
         stored=(grid.capacity @ columns.cells - before).reshape(shape),
-        melted=(taken.sum(axis=0) - held).reshape(shape),
+        melted=(_sum_of_cells(taken) - held).reshape(shape),
         drained=taken[-1].reshape(shape),
         grid=grid,
     )
@@ -117,6 +117,11 @@ def _taken(columns: Columns, thaw: Thaw) -> FloatArray:
     if not thaw.drains:
         taken[:-1] = np.where(columns.cells > 0.0, thaw.latent[:, None], 0.0)
     return taken
+
+
+def _sum_of_cells(taken: FloatArray) -> FloatArray:
+    """Sum (m,) cell after cell: `sum` adds in another order where there is but one column."""
+    return np.asarray(taken.cumsum(axis=0)[-1])
 
 
 def _march_through(run: _Run, record: np.ndarray) -> FloatArray:
