@@ -26,7 +26,7 @@ FloatArray = npt.NDArray[np.float64]
 
 MOST_TERMS = 4  # that a shader has room for
 _LEAST_HEIGHT = 1.0  # [m] over which the slope of a source is taken
-_STEPS = 12
+_STEPS, _STILL = 12, 1e-10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -151,9 +151,11 @@ def _decay_of_mean(mean: FloatArray) -> FloatArray:
     """x of which (1 - e^-x) / x is `mean`, by Newton's steps on its logarithm, which is nearly straight."""
     x = np.where(mean > 1.0, -1.0 - 1.2 * np.log(np.maximum(mean, 1.0)), 2.0 * (1.0 - mean))
     for _ in range(_STEPS):
-        value = mean_decay(x)
-        slope = (mean_decay(x + 1e-4) - mean_decay(x - 1e-4)) / 2e-4
-        x = x - (np.log(value) - np.log(mean)) * value / slope
+        value, above, below = mean_decay(np.stack([x, x + 1e-4, x - 1e-4]))
+        step = (np.log(value) - np.log(mean)) * value * 2e-4 / (above - below)
+        x = x - step
+        if np.abs(step).max() < _STILL:
+            break
     return np.asarray(x)
 
 
