@@ -14,6 +14,7 @@ The shader's counterpart is shaders/radiance/path.glsl.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -52,7 +53,7 @@ class AirPath:
             if values.shape != (count,) or not 1 <= count <= MOST_TERMS or not np.isfinite(values).all():
                 remedy = f"give 1 to {MOST_TERMS} finite terms, as many of each"
                 raise InputError("air path", entry, values.tolist(), "no list of terms", remedy)
-            if entry != "inverse_scale_height" and (values < 0.0).any():
+            if entry != "inverse_scale_height" and values.min() < 0.0:
                 raise InputError("air path", entry, values.tolist(), "negative", "give zero or more")
         if abs(float(self.weight.sum()) - 1.0) > 1e-9:
             raise InputError("air path", "weight", self.weight.tolist(), "does not sum to 1", "divide by the sum")
@@ -124,6 +125,7 @@ class AirPath:
         return np.asarray(((1.0 + g * g) / (1.0 + g * g - 2.0 * g * cosine)) ** 1.5)
 
 
+@lru_cache(maxsize=1)
 def clear_path() -> AirPath:
     """No air at all: surfaces are seen as they are."""
     return single_term(0.0, 0.0)
