@@ -87,7 +87,7 @@ def capture(
         float | None, typer.Option(help="Frames per second along a path; its own times if left out.")
     ] = None,
     level: AnyLevel = "IIIB",
-    sensors: Annotated[str, typer.Option(help="Sensors, with commas between.")] = "flir",
+    sensors: Annotated[str, typer.Option("--sensors", "--sensor", help="Sensors, with commas between.")] = "flir",
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; each sensor's own if left out.")] = None,
     samples: Annotated[int, typer.Option(help="Samples per pixel's side of sensors with optics: 1, 3, 5 or 7.")] = 1,
     weather: Annotated[str | None, typer.Option(help="winter, summer, fall or a file; by date if left out.")] = None,

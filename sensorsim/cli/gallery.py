@@ -18,7 +18,8 @@ def gallery(
     out: Annotated[Path, typer.Option(help="Folder of the sheets.")] = Path("out/gallery"),
     size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of each picture.")] = "480x360",
     sensors: Annotated[
-        str, typer.Option(help="One for each band, with a comma between: flir1977,sit1977 are of the report's time.")
+        str,
+        typer.Option("--sensors", "--sensor", help="One for each band; flir1977,sit1977 are of the report's time."),
     ] = "flir,lltv",
     preset: Preset = "standard",
     effects: Effects = "auto",

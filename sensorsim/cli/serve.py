@@ -61,7 +61,9 @@ ENDLESS = 10**9
 
 def serve(
     scene: SceneName,
-    sensor: Annotated[str, typer.Option(help="Sensors by their numbers from 0, with commas between.")] = "flir",
+    sensor: Annotated[
+        str, typer.Option("--sensor", "--sensors", help="Sensors by their numbers from 0, with commas between.")
+    ] = "flir",
     at: Annotated[str, typer.Option(help="Local standard time until the host sets the clock.")] = "1976-02-07T14:00",
     level: Level = "IIIB",
     size: Annotated[str, typer.Option(help="WIDTHxHEIGHT of every view.")] = "320x240",

@@ -18,9 +18,8 @@ partitions and furniture. Where those bring the mean down by 3 K, at -10 C and a
 than here by 0.05 K through the insulated wall, 0.25 K through brick and 0.55 K through bare sheet metal.
 """
 
-from itertools import accumulate
-
 import numpy as np
+from numba import njit
 
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.errors import InputError
@@ -91,5 +90,13 @@ def _lagged(air: FloatArray, step: float, time_constant: float) -> FloatArray:
     ratio = step / time_constant
     keep, level = float(np.exp(-ratio)), float(-np.expm1(-ratio) / ratio)
     newest, last = 1.0 - level, level - keep
-    drive = (newest * air[1:] + last * air[:-1]).tolist()
-    return np.array(list(accumulate(drive, lambda now, push: keep * now + push, initial=float(np.mean(air)))))
+    return _filtered(newest * air[1:] + last * air[:-1], keep, float(np.mean(air)))
+
+
+@njit(cache=True, nogil=True)
+def _filtered(drive: FloatArray, keep: float, start: float) -> FloatArray:
+    """What `keep` of each value and the next of `drive` (n,) add up to, (n + 1,)."""
+    out = np.full(drive.size + 1, start)
+    for k in range(drive.size):
+        out[k + 1] = drive[k] + keep * out[k]
+    return out
