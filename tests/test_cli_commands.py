@@ -98,7 +98,7 @@ def test_render_writes_picture_planes_and_sidecar(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], town: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "made" / "deep" / "frame.png"
-    names = ["radiance", "apparent_temperature", "surface_temperature", "range", "surface_id", "feature"]
+    names = ["radiance", "apparent_temperature", "surface_temperature", "range", "surface_id", "feature", "material"]
     sidecar = _render(monkeypatch, town, out, "--planes", ",".join(names), "--camera", "-150,-140,60,45,-18", "--json")
     told = json.loads(capsys.readouterr().out)
     assert sorted(path.name for path in out.parent.iterdir()) == ["frame.exr", "frame.json", "frame.png"]

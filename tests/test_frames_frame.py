@@ -14,7 +14,16 @@ def plane(name="radiance", data=IMAGE, no_surface=None):
 
 
 def test_standard_planes_have_their_units_and_types():
-    names = ["display", "radiance", "apparent_temperature", "surface_temperature", "surface_id", "feature", "range"]
+    names = [
+        "display",
+        "radiance",
+        "apparent_temperature",
+        "surface_temperature",
+        "surface_id",
+        "feature",
+        "material",
+        "range",
+    ]
     frame = build_frame({name: np.ones((3, 4), dtype=np.int64) for name in names}, {})
     units = {name: frame.plane(name).unit for name in names}
     assert units["radiance"] == "W m-2 sr-1"

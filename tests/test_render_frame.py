@@ -48,6 +48,9 @@ def test_every_pixel_shows_the_surface_that_its_ray_meets_first(flir: Renderer, 
     np.testing.assert_allclose(picture.planes["range"][clear], sight.range[clear], rtol=2e-5)
     feature = np.where(sight.surface < 0, -1, town().scene.surfaces.feature[sight.surface])
     np.testing.assert_array_equal(picture.planes["feature"][clear], feature[clear])
+    code = np.array([wall.code for wall in town().assignment.wall_types])[town().assignment.wall_type]
+    material = np.where(sight.surface < 0, -1, code[sight.surface])
+    np.testing.assert_array_equal(picture.planes["material"][clear], material[clear])
 
 
 def _seen(picture: Picture) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -24,6 +24,7 @@ from sensorsim.sensor import (
     sensitivity,
 )
 from sensorsim.sensor.exposure import ENOUGH, exposure_for
+from sensorsim.sensor.raster import source_rows, weave
 from sensorsim.sensor.spill import HALO_BLOCK, STREAK_BLOCK, baseline, block_mean, halo, spread_blocks
 
 SIZE = (52, 36)
@@ -119,6 +120,20 @@ def test_memory_follows_its_share_and_ends_at_a_cut(chains: list[RowChain], name
         assert chain.held == pytest.approx(np.full(chain.held.shape, expected), rel=1e-5)
     run(chain, dim, 9)
     assert chain.held == pytest.approx(dim, rel=1e-6)
+
+
+@pytest.mark.parametrize("samples", [1, 3])
+@pytest.mark.parametrize("fields", [2, 3])
+def test_fields_in_turn_are_woven_of_reports_of_all_rows(chains: list[RowChain], fields: int, samples: int) -> None:
+    """Expected: to the bit, though a chain makes only the rows that a frame brings; frame 7 follows on none."""
+    scan = dataclasses.replace(load_sensor("flir1977").scan, interlace=fields)
+    chain, anew = (chain_for(chains, "flir1977", samples, scan=scan) for _ in range(2))
+    full, shown = sensitivity(chain.sensor).full, np.zeros((SIZE[1], SIZE[0]), np.float32)
+    for frame in (3, 4, 5, 7, 8):
+        picture = np.roll(scene(samples, 0.2 * full, 0.9 * full), 5 * frame, axis=1)
+        anew.cut()
+        weave(shown, run(anew, picture, frame), source_rows(scan, SIZE[1], frame, follows=frame not in (3, 7)))
+        assert np.array_equal(run(chain, picture, frame), shown)
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5, 64])

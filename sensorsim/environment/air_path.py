@@ -14,6 +14,7 @@ The shader's counterpart is shaders/radiance/path.glsl.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +27,7 @@ FloatArray = npt.NDArray[np.float64]
 
 MOST_TERMS = 4  # that a shader has room for
 _LEAST_HEIGHT = 1.0  # [m] over which the slope of a source is taken
-_STEPS = 12
+_STEPS, _STILL = 12, 1e-10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -52,7 +53,7 @@ class AirPath:
             if values.shape != (count,) or not 1 <= count <= MOST_TERMS or not np.isfinite(values).all():
                 remedy = f"give 1 to {MOST_TERMS} finite terms, as many of each"
                 raise InputError("air path", entry, values.tolist(), "no list of terms", remedy)
-            if entry != "inverse_scale_height" and (values < 0.0).any():
+            if entry != "inverse_scale_height" and values.min() < 0.0:
                 raise InputError("air path", entry, values.tolist(), "negative", "give zero or more")
         if abs(float(self.weight.sum()) - 1.0) > 1e-9:
             raise InputError("air path", "weight", self.weight.tolist(), "does not sum to 1", "divide by the sum")
@@ -124,6 +125,7 @@ class AirPath:
         return np.asarray(((1.0 + g * g) / (1.0 + g * g - 2.0 * g * cosine)) ** 1.5)
 
 
+@lru_cache(maxsize=1)
 def clear_path() -> AirPath:
     """No air at all: surfaces are seen as they are."""
     return single_term(0.0, 0.0)
@@ -151,9 +153,11 @@ def _decay_of_mean(mean: FloatArray) -> FloatArray:
     """x of which (1 - e^-x) / x is `mean`, by Newton's steps on its logarithm, which is nearly straight."""
     x = np.where(mean > 1.0, -1.0 - 1.2 * np.log(np.maximum(mean, 1.0)), 2.0 * (1.0 - mean))
     for _ in range(_STEPS):
-        value = mean_decay(x)
-        slope = (mean_decay(x + 1e-4) - mean_decay(x - 1e-4)) / 2e-4
-        x = x - (np.log(value) - np.log(mean)) * value / slope
+        value, above, below = mean_decay(np.stack([x, x + 1e-4, x - 1e-4]))
+        step = (np.log(value) - np.log(mean)) * value * 2e-4 / (above - below)
+        x = x - step
+        if np.abs(step).max() < _STILL:
+            break
     return np.asarray(x)
 
 

@@ -119,6 +119,7 @@ STANDARD_PLANES: Mapping[str, tuple[type[np.generic], str, str, float | None]] =
     "surface_temperature": (np.float64, "K", "temperature of the surface seen, 0 where there is none", 0.0),
     "surface_id": (np.int32, "1", "row of the surface seen, -1 where there is none", -1.0),
     "feature": (np.int32, "1", "row of the feature seen, -1 where there is none", -1.0),
+    "material": (np.int32, "1", "code of the material seen, -1 where there is none", -1.0),
     "fit_error": (np.float64, "K", "the tables' error for the surface seen at the time, -1 where there is none", -1.0),
     "range": (np.float64, "m", "distance from the sensor to the surface seen, 0 where there is none", 0.0),
 }

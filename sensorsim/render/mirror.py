@@ -71,7 +71,9 @@ def mirror_table(sky: FloatArray, ground_radiance: float) -> FloatArray:
     sky (n,): radiance at elevations whose sine goes evenly from 0 to 1; below the horizon is the ground plane.
     """
     around = _all_around(sky, ground_radiance)
-    return np.stack([_lobe(gloss.spread) @ around for gloss in load_gloss()])
+    spreads = [gloss.spread for gloss in load_gloss()]
+    shown = {spread: _lobe(spread) @ around for spread in set(spreads)}
+    return np.stack([shown[spread] for spread in spreads])
 
 
 def glow_mirror_table(sky: FloatArray, ground_radiance: float, glow: SkyGlow | None, wind_speed: float) -> FloatArray:

@@ -36,7 +36,7 @@ def exposed(planes: Mapping[str, NDArray[Any]]) -> NDArray[np.float32]:
 
 def wanted_planes(sensor: Sensor, planes: Collection[str] | None) -> set[str]:
     """The planes asked for, all that a sensor's frames have for None; InputError for none and for any other."""
-    there = {*QUANTITIES, "surface_id", "feature", "display"}
+    there = {*QUANTITIES, "surface_id", "feature", "material", "display"}
     there |= {"signal"} if sensor.detector is not None else set()
     there |= {"counts"} if sensor.has_counts else set()
     there |= {"apparent_temperature"} if sensor.mode == "emissive" else set()

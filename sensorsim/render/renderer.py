@@ -28,7 +28,7 @@ from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
 from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
-from sensorsim.render.surface_table import surface_rows
+from sensorsim.render.surface_table import surface_codes, surface_rows
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
 from sensorsim.sensor import (
@@ -105,11 +105,11 @@ class Renderer:
     ) -> Picture:  # fmt: skip
         """The picture from `camera` at a time of the image day [s].
 
-        Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, in emissive
-        bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1] and raw counts, of the
-        frame of that number; all that the effects leave, or those asked for. Display alone takes a quicker road where
-        no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces that of the
-        moment. `solids` stand among the surfaces; their ids follow on those of the scene.
+        Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, material (its
+        code), in emissive bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1] and
+        raw counts, of the frame of that number; all that the effects leave, or those asked for. Display alone takes a
+        quicker road where no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces
+        that of the moment. `solids` stand among the surfaces; their ids follow on those of the scene.
         """
         wanted = wanted_planes(self.sensor, planes)
         if illumination is None:
@@ -257,8 +257,10 @@ class Renderer:
         }
         surface = np.ascontiguousarray(self._target.read("id")[*places, 0])
         planes["surface_id"] = surface
-        feature = np.append(self.world.scene.surfaces.feature, -1)  # of what is no surface of the scene: none
-        planes["feature"] = feature[np.where(surface < 0, feature.size - 1, np.minimum(surface, feature.size - 1))]
+        feature, material = self.world.scene.surfaces.feature, surface_codes(self.world.assignment)
+        row = np.where(surface < 0, feature.size, np.minimum(surface, feature.size))
+        for name, known in (("feature", feature), ("material", material)):
+            planes[name] = np.append(known, -1)[row].astype(np.int32)  # -1 for what is no surface of the scene
         if self.band_table is not None and "apparent_temperature" in wanted:
             planes["apparent_temperature"] = self.band_table.apparent_temperature(planes["radiance"])
         return planes

@@ -82,7 +82,13 @@ class RowChain:
         self.halos = np.zeros((height, -(-width // HALO_BLOCK)), np.float32)
         self.spilled = np.zeros((height, width), np.float32)
         self.woven = np.zeros((height, width), np.float32)
+        self.streak_places = _between(width, self.streaks.shape[1], STREAK_BLOCK)
+        self.halo_places = _between(width, self.halos.shape[1], HALO_BLOCK)
         self.neighbours = living_neighbours(self.pattern[2]) if sensor.noise.replaced else ()
+        assert sensor.detector is not None
+        kept = renewed_share(sensor) < 1.0 or sensor.detector.blooming > 0.0
+        self.rows_alone = not kept and sensor.intensifier is None  # each goes on to its report without the others
+        self.rows_stay = self.rows_alone and sensor.scan.lines == 0 and not self.neighbours  # of lines not brought
 
     def release(self) -> None:
         """End the threads."""
@@ -99,19 +105,19 @@ class RowChain:
             self.signal[:] = self.light
             return self.signal
         self._look_through(field)
-        (row, column, reach), places = self.kernel, self.places
-        self.each(
-            self.size[1],
-            lambda first, last: row_kernels.blur(
-                self.light, row, column, reach, places, self.samples, first, last, self.focus
-            ),
-        )
         seen = self.seen(self.light)
         look = self.look.stopped(exposure_for(self.look, seen))  # an iris
-        light = self._remembered(frame)
-        if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
-            light = bloomed(light, look.full, self.sensor.detector.blooming)
-        self._report(light, look, float(np.mean(seen, dtype=np.float64)), frame)
+        level = float(np.mean(seen, dtype=np.float64))
+        report = self._report(look, level, frame)
+        if self.rows_alone:
+            self._brought(frame, lambda *rows: report(self._focused(*rows), *rows))
+        else:
+            self._brought(frame, self._focused)
+            light = self._remembered(frame)
+            if self.sensor.detector.blooming > 0.0 and float(light.max()) > look.full:
+                light = bloomed(light, look.full, self.sensor.detector.blooming)
+            light = self._spilled(light, look, level)
+            self._brought(frame, lambda *rows: report(light, *rows))
         self._put_out(frame)
         return self.signal
 
@@ -186,51 +192,64 @@ class RowChain:
             return self.held
         return self.focus
 
-    def _report(self, light: Single, look: Sensitivity, level: float, frame: int) -> None:
-        """Noise and counts of the light with streaks and halo; `level` is that of the whole picture."""
+    def _brought(self, frame: int, work: Callable[[int, int, int], Any]) -> None:
+        """Do the work on the rows that are needed: on every so manieth where the others stay as they are reported."""
+        every = self.sensor.scan.interlace if self.rows_stay and self._follows(frame) else 1
+        self.each(self.size[1], lambda first, last: work(first + (frame - first) % every, last, every))
+
+    def _focused(self, first: int, last: int, every: int) -> Single:
+        """The light, its rows from first to last blurred."""
+        (row, column, reach), places = self.kernel, self.places
+        row_kernels.blur(
+            self.light, row, column, reach, places, self.samples, first, last, every, self.focus
+        )  # fmt: skip
+        return self.focus
+
+    def _spilled(self, light: Single, look: Sensitivity, level: float) -> Single:
+        """Light on an intensifier, with streaks and what its halo needs; `level` is that of the whole picture."""
         sensor, (width, height) = self.sensor, self.size
+        if sensor.intensifier is None:
+            return light
+        if sensor.scan.ac_coupling > 0.0:
+            whole = light
+            self.each(height, lambda first, last: self._with_streaks(whole, level, first, last, 1))
+            light = self.spilled
+        radius = halo_radius(sensor, self.field, width)
+        around = halo(light, look.full, sensor.intensifier.halo_share, radius)
+        self.halos[:] = blocks_by_row(around, height, HALO_BLOCK)
+        return light
+
+    def _report(self, look: Sensitivity, level: float, frame: int) -> Callable[[Single, int, int, int], None]:
+        """What makes noise and counts of rows of light, with streaks and halo."""
+        sensor = self.sensor
         numbers = [look.constant, look.shot, look.step, round(look.full / look.step), self.corrected_at]
         packed, seed = np.array(numbers, np.float32), stream_seed(sensor, "tvh")
         row, line = self.noise.at(frame)
-        if sensor.intensifier is not None and sensor.scan.ac_coupling > 0.0:
-            self.each(height, lambda first, last: self._with_streaks(light, level, first, last))
-            light = self.spilled
-        if sensor.intensifier is not None:
-            radius = halo_radius(sensor, self.field, width)
-            around = halo(light, look.full, sensor.intensifier.halo_share, radius)
-            self.halos[:] = blocks_by_row(around, height, HALO_BLOCK)
 
-        def work(first: int, last: int) -> None:
-            seen = light
+        def work(seen: Single, first: int, last: int, every: int) -> None:
             if sensor.intensifier is not None:
-                seen = self._with_halo(seen, first, last)
+                seen = self._with_halo(seen, first, last, every)
             elif sensor.scan.ac_coupling > 0.0:
-                seen = self._with_streaks(seen, level, first, last)
+                seen = self._with_streaks(seen, level, first, last, every)
             row_kernels.report(
-                seen, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, self.reported
+                seen, self.pattern, row, line, self.deviates, packed, frame, seed, first, last, every, self.reported
             )
 
-        self.each(height, work)
+        return work
 
-    def _with_streaks(self, light: Single, level: float, first: int, last: int) -> Single:
+    def _with_streaks(self, light: Single, level: float, first: int, last: int, every: int) -> Single:
         """Rows of the light less what each channel has settled to, but for a level."""
         kept = kept_per_block(self.sensor, self.field, self.size)
-        row_kernels.settled_blocks(light, STREAK_BLOCK, kept, first, last, self.streaks)
-        return self._with_blocks(light, self.streaks, STREAK_BLOCK, (level, -1.0), first, last)
-
-    def _with_halo(self, light: Single, first: int, last: int) -> Single:
-        return self._with_blocks(light, self.halos, HALO_BLOCK, (0.0, 1.0), first, last)
-
-    def _with_blocks(
-        self, light: Single, blocks: Single, width: int, numbers: tuple[float, float], first: int, last: int
-    ) -> Single:
-        """Rows of light with a constant, and a multiple of blocks (height, blocks), spread along the rows."""
-        left, share = block_places(self.size[0], blocks.shape[1], width)
-        right = np.minimum(left + 1, blocks.shape[1] - 1).astype(np.uint32)
+        row_kernels.settled_blocks(light, STREAK_BLOCK, kept, first, last, every, self.streaks)
+        numbers = np.array([level, -1.0], np.float32)
         row_kernels.add_blocks(
-            light, blocks, left.astype(np.uint32), right, share.astype(np.float32), np.array(numbers, np.float32),
-            first, last, self.spilled,
+            light, self.streaks, *self.streak_places, numbers, first, last, every, self.spilled
         )  # fmt: skip
+        return self.spilled
+
+    def _with_halo(self, light: Single, first: int, last: int, every: int) -> Single:
+        numbers = np.array([0.0, 1.0], np.float32)
+        row_kernels.add_blocks(light, self.halos, *self.halo_places, numbers, first, last, every, self.spilled)
         return self.spilled
 
     def _put_out(self, frame: int) -> None:
@@ -238,7 +257,7 @@ class RowChain:
         shown, scan = self.reported, self.sensor.scan
         if self.neighbours:
             shown = replace_dead(shown, self.neighbours)
-        if not is_plain(scan):
+        if not (is_plain(scan) or self.rows_stay):
             weave(self.woven, shown, source_rows(scan, self.size[1], frame, follows=self._follows(frame)))
             shown = self.woven
         self.signal, self.last_frame = shown, frame
@@ -246,3 +265,10 @@ class RowChain:
     def _follows(self, frame: int) -> bool:
         """Whether what the last frame has left is that of the one before."""
         return frame == self.last_frame + 1 and self.last_frame >= 0
+
+
+def _between(count: int, blocks: int, extent: int) -> tuple[NDArray[np.uint32], NDArray[np.uint32], Single]:
+    """For each of `count` elements the blocks on its left and right, and how far it is to the right one."""
+    left, share = block_places(count, blocks, extent)
+    right = np.minimum(left + 1, blocks - 1)
+    return left.astype(np.uint32), right.astype(np.uint32), share.astype(np.float32)

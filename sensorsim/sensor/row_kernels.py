@@ -1,8 +1,9 @@
 """Blur, noise, counts and grey of a picture's rows as compiled loops, for machines whose processor draws the frame.
 
-Each works on rows `first` to `last` of arrays (height, width), row 0 at the top, so that threads share a picture; its
-inner loops run over neighbouring elements, which the compiler turns into vectors. They do what `focal_plane`,
-`read_out` and `display_code` do, in the precision of the arrays that they are given.
+Each works on rows `first` to `last` of arrays (height, width), row 0 at the top, so that threads share a picture, and
+of these on `every` so manieth, since lines may come in turn; its inner loops run over neighbouring elements, which
+the compiler turns into vectors. They do what `focal_plane`, `read_out` and `display_code` do, in the precision of the
+arrays that they are given.
 """
 
 from typing import Any
@@ -19,7 +20,7 @@ Array = NDArray[Any]
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 def blur(
     picture: Array, row: Array, column: Array, reach: int, places: Array, samples: int, first: int, last: int,
-    out: Array,
+    every: int, out: Array,
 ) -> None:  # fmt: skip
     """Radiance on the elements [W m-2 sr-1] of a picture (height samples, columns), by the products of a kernel.
 
@@ -29,7 +30,7 @@ def blur(
     (height, width), (ranks, taps) = picture.shape, row.shape
     wide, others = np.zeros(width, picture.dtype), np.zeros(4, np.int64)
     one, two = np.zeros(width + taps, picture.dtype), np.zeros(width + taps, picture.dtype)
-    for y in range(first, last):
+    for y in range(first, last, every):
         top = samples * y + samples // 2 - reach
         wide[:] = 0.0
         for rank in range(0, ranks, 2):
@@ -84,7 +85,7 @@ def padded(weights: Array) -> NDArray[np.float32]:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int, out: Array) -> None:
+def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int, every: int, out: Array) -> None:
     """Level (height, blocks) that each row has settled to, as `spill.baseline`: its sum from block to block.
 
     kept: share of the level left a block of `extent` neighbours later; the sweep that ends a row begins the next.
@@ -94,7 +95,7 @@ def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int
     for _ in range(count):
         whole += around
         around *= kept
-    for y in range(first, last):
+    for y in range(first, last, every):
         row, level = light[y], 0.0
         for block in range(count):
             begin, end, total = block * extent, min((block + 1) * extent, width), 0.0
@@ -110,11 +111,11 @@ def settled_blocks(light: Array, extent: int, kept: float, first: int, last: int
 @njit(cache=True, nogil=True, error_model="numpy")
 def add_blocks(
     light: Array, rows: Array, left: Array, right: Array, share: Array, numbers: Array, first: int, last: int,
-    out: Array,
+    every: int, out: Array,
 ) -> None:  # fmt: skip
     """`light` + a constant + a factor times blocks (height, blocks), straight between the `left` and the `right`."""
     constant, factor = numbers
-    for y in range(first, last):
+    for y in range(first, last, every):
         source, blocks, target = light[y], rows[y], out[y]
         for x in range(source.size):
             low = blocks[left[x]]
@@ -139,7 +140,7 @@ def deviate_row(row: int, frame: int, seed: int, deviates: Array, out: Array) ->
 @njit(cache=True, nogil=True, error_model="numpy")
 def report(
     light: Array, pattern: Array, row: Array, line: Array, deviates: Array, look: Array, frame: int, seed: int,
-    first: int, last: int, out: Array,
+    first: int, last: int, every: int, out: Array,
 ) -> None:  # fmt: skip
     """What the detector reports [W m-2 sr-1].
 
@@ -150,7 +151,7 @@ def report(
     constant, shot, step, highest, corrected_at = look
     none, half = look.dtype.type(0.0), look.dtype.type(0.5)
     deviate = np.zeros(line.size, light.dtype)
-    for y in range(first, last):
+    for y in range(first, last, every):
         deviate_row(y, frame, seed, deviates, deviate)
         source, fixed, gain, sees = light[y], pattern[0, y], pattern[1, y], pattern[2, y]
         target, whole = out[y], row[y]

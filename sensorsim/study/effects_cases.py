@@ -72,6 +72,8 @@ CASES = (
           "Without what they mirror surfaces look colder by their reflectance; bare metal sheds by far the most."),
     _warm("specular", "winter", 13.0, "cement_plant",
           "Metal sheds mirror the low sky, warmer than the mean of sky and ground; matt ones do not."),
+    _light("specular", "winter", 13.0, "cement_plant",
+           "Metal sheds mirror the dark sky away from the sun; matt ones scatter its light here and are brighter."),
     _warm("atmosphere", "summer", 13.0, "tower", "Far surfaces lose contrast and take on the air's temperature."),
     _light("atmosphere", "winter", 10.0, "tower", "Far surfaces lose contrast under a veil of scattered sunlight."),
     _part("blur", "flir1977", 10.0, "Edges are soft over about two pixels; thin masts fade."),

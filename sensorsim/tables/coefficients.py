@@ -20,6 +20,10 @@ from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.spline import dense_layout, spline_matrix
 from sensorsim.thermal.lead_in import LeadIn
 
+# Products of a matrix product that OpenBLAS leaves to the thread that asks. From twice as many on it shares the work
+# with threads that then wait for more for many milliseconds, at full load, on processors that a frame needs.
+ALONE = 2**17
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Moment:
@@ -72,7 +76,9 @@ class ShadeTables:
             return coefficients  # tables that were not baked have no more orientations than are looked up
         walls, count, powers = coefficients.shape
         flat = coefficients.transpose(1, 0, 2).reshape(count, walls * powers)  # one product instead of one a wall
-        dense = spline_matrix(self.settings.orientations, self.orientations.name) @ flat
+        matrix = spline_matrix(self.settings.orientations, self.orientations.name)
+        rows = max(1, ALONE // flat.size)
+        dense = np.concatenate([matrix[first : first + rows] @ flat for first in range(0, len(matrix), rows)])
         return np.asarray(dense.reshape(-1, walls, powers).transpose(1, 0, 2))
 
     @staticmethod
