@@ -160,6 +160,21 @@ def test_melting_columns_solved_together_equal_each_alone_bit_for_bit() -> None:
     np.testing.assert_allclose(last.exterior[0], together.exterior[-1], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("drains", [True, False])
+def test_many_melting_columns_equal_each_alone_bit_for_bit(drains: bool) -> None:
+    """More columns than one block holds, which melt, turn and settle at different steps; heat and drained water too."""
+    outside, inside = _weather(300, seed=11)
+    absorptances = np.linspace(0.05, 0.95, 23)
+    options = {"step": 600.0, "record": np.arange(300), "melting_depth": 0.15, "drains": drains}
+    together = march([SNOW, SOIL], outside, inside, absorptances, **options)
+    assert np.unique(together.heat[0]).size == 46
+    assert np.unique(together.melted).size > 10
+    for place in (0, 8, 9, 22):
+        alone = march([SNOW, SOIL], outside, inside, absorptances[[place]], **options)
+        for name in ("exterior", "interior", "heat", "melted", "drained"):
+            np.testing.assert_array_equal(getattr(alone, name)[..., 0], getattr(together, name)[..., place])
+
+
 def test_nan_over_snow_is_told() -> None:
     outside, inside = _weather(50)
     outside.longwave[20] = np.nan
