@@ -100,7 +100,11 @@ def _pareto(axes: "Axes", scores: Sequence[Score], cost: Sequence[float], label:
         axes.plot(x, low, "o", color=colour, markersize=6 if group == "preset" else 4, label=WORDS[group])
         if group == "preset":
             for row in rows:
-                axes.annotate(scores[row].trial.name, (cost[row], p99[row]), textcoords="offset points", xytext=(6, 4))
+                left = cost[row] > np.sqrt(min(cost) * max(cost))  # so that no name leaves the plot
+                axes.annotate(
+                    scores[row].trial.name, (cost[row], p99[row]), textcoords="offset points",
+                    xytext=(-6 if left else 6, 5), ha="right" if left else "left",
+                )  # fmt: skip
     front = pareto_front(np.asarray(cost, dtype=np.float64), p99)
     axes.step(np.asarray(cost)[front], p99[front], where="post", color="black", linewidth=1.0, label="front")
     axes.set_xscale("log")
