@@ -41,11 +41,11 @@ def uniform(ctx: moderngl.Context, sensor: Sensor, kelvin: float, frame: int) ->
 @pytest.mark.parametrize("name", ["cooled_mwir", "uncooled", "flir1977"])
 @pytest.mark.parametrize("kelvin", [280.0, 300.0, 320.0])
 def test_netd_of_rendered_uniform_frames_is_that_of_the_model(ctx: moderngl.Context, name: str, kelvin: float) -> None:
-    """To a hundredth: the deviation of 76,800 pixels is true to 0.26 %, four times that here."""
+    """To a hundredth: the deviation of 76,800 pixels is true to 0.26 %, well below that hundredth."""
     sensor = dataclasses.replace(load_sensor(name), noise=Noise(seed=3))
     colder, warmer = (uniform(ctx, sensor, kelvin + shift, 1) for shift in (0.0, 0.5))
     measured = colder.std() * 0.5 / (warmer.mean() - colder.mean())
-    assert measured == pytest.approx(netd(sensor, kelvin), rel=0.0105)
+    assert measured == pytest.approx(netd(sensor, kelvin), rel=0.01)
 
 
 def injected(sensor: Sensor, frames: int) -> dict[str, float]:
