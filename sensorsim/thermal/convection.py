@@ -40,8 +40,7 @@ ROUGHNESS_FACTOR = {
     "smooth": 1.11,
     "very_smooth": 1.0,
 }  # [Walton1983]
-VERTICAL_FREE = 1.31  # c of a vertical surface [W m-2 K-4/3] at FREE_AIR_TEMPERATURE, sea level
-INTERIOR_FREE = 1.31
+INTERIOR_FREE = 1.31  # c of a vertical surface [W m-2 K-4/3] at FREE_AIR_TEMPERATURE, sea level
 FREE_AIR_TEMPERATURE = 294.26  # [K] 70 F, that the coefficients of [Walton1983] are for
 _MCADAMS_TURN = 4.8768  # [m s-1] 16 feet a second
 _WATTS = 5.678263  # [W m-2 K-1] of one Btu an hour, square foot and degree Fahrenheit
