@@ -34,7 +34,6 @@ class WallSteps:
         self.columns = Columns(
             cells=np.zeros((grid.capacity.size, 1)),
             carried=np.array([[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]]).T.copy(),
-            orientation=np.zeros(1, dtype=np.int64),
             absorptance=np.array([surface.absorptance]),
         )
         self._factors: dict[float, tuple[Cells, Cells]] = {}
