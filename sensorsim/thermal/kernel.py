@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.balance import Exchange, Guess, Room, balance, leap, load
+from sensorsim.thermal.balance import Exchange, Guess, Room, balance
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Trace
 from sensorsim.thermal.damping import CARRY, GAMMA, calls_for_damping, go_back, join
 from sensorsim.thermal.lanes import (
@@ -225,5 +225,4 @@ def _faces(
     wet, rest, grey = outside.latent.shape[0] > 1, 1.0 - at, outside.emissivity * SIGMA
     air, vapour = rest * early[0] + at * late[0], rest * early[1] + at * late[1]
     room = room_at(early, late, at, inside.free, inside.emissivity * SIGMA)
-    moving = load(lanes, w, at, guess) if wet else leap(lanes, w, exchange, grey, air, room, at, guess)
-    return balance(lanes, w, exchange, grey, air, vapour, room, wet, at, moving)
+    return balance(lanes, w, exchange, grey, air, vapour, room, wet, at, guess)

@@ -19,7 +19,7 @@ Index = np.uint64
 LANES = 32  # at most
 VECTOR = 8
 UNBOUNDED = 1e9  # [K], [W m-2]
-ROW = [Index(LANES * row) for row in range(52)]
+ROW = [Index(LANES * row) for row in range(53)]
 # What a column carries from step to step, in the order of `Columns.carried`, and what it never changes.
 EXTERIOR, INTERIOR, PER_FILM, INTERIOR_PER_FILM, HEAT, INTERIOR_HEAT = ROW[0:6]
 RISE, INTERIOR_RISE, RISE_BEFORE, INTERIOR_RISE_BEFORE = ROW[6:10]
@@ -30,7 +30,7 @@ ABSORBED, FORCED, EXCHANGE, SUN, LONGWAVE, LATER = *ROW[13:18], ROW[5]
 LOAD, FILM_CUBED, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, FIRST, OUTERMOST = ROW[23:32]
 FLUX, INTERIOR_FLUX, LATER_FLUX, LATER_INTERIOR_FLUX = ROW[32:36]
 START, INTERIOR_START, LEAST, MOST, LOWEST, HIGHEST, MARK = ROW[36:43]
-KEPT, ALL = ROW[43], ROW[51]
+KEPT, VAPOUR_EXCHANGE, ALL = ROW[43], ROW[51], ROW[52]
 # Rows of each cell: now, as eliminated so far, before the step.
 NOW, WORK, OLD, CELL = ROW[0:4]
 
