@@ -66,7 +66,7 @@ NO_TRACE = Trace(np.zeros(0, dtype=np.int64), np.zeros((0, 2, 0)))
 FIRST_GUESS = (0.0, GAMMA + 0.5 * GAMMA * (1.0 + GAMMA), -0.5 * GAMMA * (1.0 + GAMMA))
 SECOND_GUESS = (1.0 / GAMMA, 0.0, 0.0)
 DAMPED_GUESS = (0.0, 1.0, 0.0)
-CHUNK = 64  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
+CHUNK = 32  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
 
 
 def advance(
@@ -105,7 +105,7 @@ def _all(
         stop = min(start + CHUNK, last)
         for number in range(groups(columns, lanes)):
             group = group_at(columns, lanes, number)
-            take(lanes, w, c, group, columns, outside.free, outside.free_colder)
+            take(lanes, w, c, group, columns, outside)
             sample(lanes, w, group, outside, start)
             eliminate(lanes, w, c, place, cells.outward, cells.exchange[0, 4])
             for k in range(start, stop):
@@ -125,11 +125,11 @@ def sample(lanes: Index, w: FloatArray, group: Group, outside: Outside, k: int) 
         w[START + j], w[INTERIOR_START + j] = w[EXTERIOR + j], w[INTERIOR + j]
     for j in range(LATER):
         w[ABSORBED + j] = w[LATER + ABSORBED + j]
-    spread(lanes, w, LATER + SUN, outside.irradiance[k], group)
-    spread(lanes, w, LATER + LONGWAVE, outside.longwave[k], group)
-    spread(lanes, w, LATER + FORCED, outside.film[k], group)
+    spread(lanes, w, LATER + SUN, outside.irradiance[k], group.begin, group.width)
+    spread(lanes, w, LATER + LONGWAVE, outside.longwave[k], group.begin, group.width)
+    spread(lanes, w, LATER + FORCED, outside.film[k], group.begin, group.width)
     if outside.latent.shape[0] > 1:
-        spread(lanes, w, LATER + EXCHANGE, outside.latent[k], group)
+        spread(lanes, w, LATER + EXCHANGE, outside.latent[k], group.begin, group.width)
     for j in range(lanes):
         absorbed = w[ABSORPTANCE + j] * w[LATER + SUN + j]
         w[LATER + ABSORBED + j] = absorbed + outside.emissivity * w[LATER + LONGWAVE + j]
