@@ -11,8 +11,8 @@ from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
-from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
-from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
+from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, reflectance_powers
+from sensorsim.tables.fit import FitFrame, FittedWall, fit_frame, fit_lobes, fit_plain
 from sensorsim.tables.history import wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
@@ -20,6 +20,7 @@ from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
+from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
@@ -60,7 +61,8 @@ def bake_tables(
         orientations=scope.lookup,
         coefficients=np.stack([row.coefficients for row in rows], axis=1).astype(kept),
         level=np.stack([row.level for row in rows], axis=1),
-        bend=np.stack([row.bend for row in rows], axis=1),
+        loss=np.stack([row.loss for row in rows], axis=1),
+        towards=bake.towards,
         lobes=_lobes(bake.sources, rows, kept),
         ground_temperature=soil[record],
         settings=settings,
@@ -74,6 +76,7 @@ class _Solved:
 
     temperature: FloatArray  # (t, o, r) [K]
     weight: FloatArray | None  # (t, k + 1) of the lobes on a black surface [K]
+    films: Films | None  # of its face
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -88,7 +91,8 @@ class _Bake:
     wall_types: tuple[WallType, ...]
     record: IntArray  # (t,) samples of the slices
     sources: LobeSources | None
-    facing: FloatArray | None  # (t, k + 1, o) of the solved orientations to the lobes
+    towards: FloatArray  # (t, 2) where the wind comes from, east and north
+    frame: FitFrame | None  # with lobes
 
     @property
     def reflectances(self) -> FloatArray:
@@ -115,12 +119,13 @@ class _Bake:
         temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
         temperature[:, needed] = solved
         if self.sources is None:
-            return _Solved(temperature=temperature, weight=None)
+            return _Solved(temperature=temperature, weight=None, films=None)
         response = sun_response(
             self.environment, outside, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
             first=self.sources.first, settings=self.settings, plan=self.plan,
         )  # fmt: skip
-        return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
+        films = films_of(outside, self.record, whole.normal, self.towards)
+        return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response), films=films)
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
         """Fit any wall type, from its parts where it is mixed."""
@@ -129,11 +134,11 @@ class _Bake:
         own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
         plain = [solved[part] for part in plain_walls(wall)]
         parts = [
-            _at(history.temperature, refl, row) if wall.parts else history.temperature
+            _at(history.temperature, refl, row, self.settings.knot) if wall.parts else history.temperature
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
-        if self.facing is None:
+        if self.frame is None:
             return self._fit_needed(wall, temperature, degree)
         rises = [
             history.weight[..., None] * (1.0 - row)
@@ -142,12 +147,13 @@ class _Bake:
         ]
         courses = [part.mean(axis=1, keepdims=True) for part in parts]
         rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
-        return fit_lobes(temperature, rise, self.facing, self.settings.orientations, refl, degree)
+        films = [history.films for history in plain if history.films is not None]
+        return fit_lobes(temperature, rise, mix_films(wall, films) if wall.parts else films[0], self.frame)
 
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
         needed = self.scope.needed[self.wall_types.index(wall)]
-        fitted = fit_plain(temperature[:, needed], self.reflectances, degree)
+        fitted = fit_plain(temperature[:, needed], self.reflectances, degree, knot=self.settings.knot)
         coefficients = np.full((*temperature.shape[:2], degree + 1), np.nan)
         coefficients[:, needed] = fitted.coefficients
         return replace(fitted, coefficients=coefficients)
@@ -160,6 +166,8 @@ def _prepare(
     """What all wall types of a bake share, over a ground plane of temperature `soil` (t,) [K]."""
     record, lit = kept_samples(environment, settings), wants_lobes(settings, scope, plan)
     sources = lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan) if lit else None
+    angle = np.radians(environment.wind_direction[record])
+    towards = np.stack([np.sin(angle), np.cos(angle)], axis=1)
     return _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
@@ -169,7 +177,13 @@ def _prepare(
         wall_types=tuple(wall_types),
         record=record,
         sources=sources,
-        facing=None if sources is None else facing_lobes(sources, scope.solved),
+        towards=towards,
+        frame=None
+        if sources is None
+        else fit_frame(
+            settings, scope.reflectances, facing_lobes(sources, scope.solved), air=environment.air_temperature[record],
+            towards=towards, clock=sources.clock,
+        ),
     )
 
 
@@ -187,10 +201,10 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
         return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
 
 
-def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) -> FloatArray:
+def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray, knot: float) -> FloatArray:
     """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
-    powers = np.vander(asked, reflectances.size, increasing=True)
-    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1) @ powers.T)
+    powers = reflectance_powers(asked, reflectances.size, knot)
+    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1, knot=knot) @ powers.T)
 
 
 def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dtype[np.floating]) -> Lobes | None:
@@ -212,7 +226,8 @@ def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], set
         coefficients=np.full((2, len(wall_types), orientations.normal.shape[0], 1), np.nan, dtype=np.float32),
         ground_temperature=np.full(2, np.nan),
         level=np.full((2, len(wall_types)), np.nan),
-        bend=np.zeros((2, len(wall_types))),
+        loss=np.broadcast_to(UNBENT, (2, len(wall_types), COLUMNS)),
+        towards=np.zeros((2, 2)),
         lobes=None,
         settings=settings,
         lead_in=(),

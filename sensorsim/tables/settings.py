@@ -42,8 +42,9 @@ class BakeSettings:
     orientations: str = "icosphere42"  # layout of the standard orientations
     interpolation: str = "spline"  # between them, one of INTERPOLATIONS
     lobes: float = 900.0  # [s] between the sun's places that have lobes of their own; 0: no lobes
-    reflectances: tuple[float, ...] = (0.02, 0.35, 0.8, 0.98)  # solar reflectances that are solved
+    reflectances: tuple[float, ...] = (0.05, 0.45, 0.8, 0.95)  # solar reflectances that are solved
     degree: int = 3  # of the polynomial in reflectance
+    knot: float = 0.6  # reflectance at which its last power begins, from the third degree on
     step: float = 300.0  # [s]
     cell_size: float = 1.0  # of the walls' finite volumes over the usual
     slice_interval: float = 300.0  # [s] between the times that are kept
@@ -85,6 +86,7 @@ class BakeSettings:
                 not (isinstance(self.degree, int) and self.degree in degrees),
                 "use a whole number from 0 up to the number of reflectances less one",
             ),
+            ("knot", not 0.0 <= self.knot < max(self.reflectances, default=1.0), "use 0 up to the largest reflectance"),
             ("slice_interval", not sliced, "use a multiple of the step that divides the day"),
             ("exchange", not isinstance(self.exchange, bool), "use True or False"),
             ("lead_in_days", days is not None and not 0 <= days <= 365, "use 0 to 365 days, or None"),
@@ -117,10 +119,10 @@ PRESETS = {
                           degree=2, step=600.0, cell_size=1.5, slice_interval=1200.0),
     # the choices of 1978: few orientations, the closest three, five reflectances and a quartic, quarters of the sky
     "report": BakeSettings(orientations="report26", interpolation="closest", lobes=0.0, reflectances=FIVE, degree=4,
-                           slice_interval=900.0, sky="quadrants"),
+                           knot=0.0, slice_interval=900.0, sky="quadrants"),
     "standard": BakeSettings(),
     "reference": BakeSettings(orientations="icosphere642", interpolation="barycentric", lobes=300.0, reflectances=FIVE,
-                              degree=4, step=60.0, lead_in_stride=1),
+                              degree=4, knot=0.0, step=60.0, lead_in_stride=1),
 }  # fmt: skip
 
 
