@@ -22,6 +22,7 @@ from sensorsim.tables.spline import roughness
 from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms, wind_share
 
 UNSURE = 0.01  # of a gain's energy that stands for a gain of 1
+DARKER = 1e-3  # least absorptance
 FAINT = 0.01  # [K2] energy of lobes so weak that their gain cannot be told
 AROUND = 1.0 * SECONDS_PER_HOUR  # standard deviation of the times by which a gain is told
 
@@ -89,30 +90,31 @@ def fit_lobes(temperature: FloatArray, rise: FloatArray, films: Films, frame: Fi
     Both straightened: rises are what they are at the mean temperature of all orientations and reflectances.
     """
     reflectances, mean = frame.reflectances, temperature.mean(axis=(1, 2), keepdims=True)
-    loss = fit_loss(temperature, frame.air, reflectances, films, frame.terms)
-    straight, _ = straighten(temperature, frame.air, loss, frame.terms)
+    straight, loss = fit_loss(temperature, frame.air, reflectances, films, frame.terms)
     stretch = straighten(mean, frame.air, loss, frame.terms)[1].mean(axis=1, keepdims=True)
     weight = np.zeros((*rise.shape[:2], 2))
     powers = min(2, reflectances.size)
     weight[..., :powers] = fit_polynomials(stretch * rise, reflectances, powers - 1)
     sun = frame.facing.swapaxes(1, 2) @ weight @ np.vander(reflectances, 2, increasing=True).T
-    gain = fit_gain(straight, sun, frame.orientations, frame.nearby)
+    gain = fit_gain(straight, sun, frame.orientations, reflectances, frame.nearby)
     rest = straight - sun * lobe_gain(gain, orientation_set(frame.orientations).normal)[..., None]
     coefficients = fit_polynomials(rest, reflectances, frame.degree, knot=frame.knot)
     return FittedWall(coefficients=coefficients, level=frame.air, loss=loss, weight=weight, gain=gain)
 
 
-def fit_gain(straight: FloatArray, sun: FloatArray, orientations: str, nearby: FloatArray) -> FloatArray:
+def fit_gain(
+    straight: FloatArray, sun: FloatArray, orientations: str, reflectances: FloatArray, nearby: FloatArray
+) -> FloatArray:
     """Gain (t, 5) of lobes `sun` (t, o, r) [K] that leaves the least energy in straightened (t, o, r) [K] less them.
 
-    Over the slices around each, by weights (t, t).
+    Over all reflectances, as the lobes go with the absorptance, and the slices around each, by weights (t, t).
     """
-    energy, terms = roughness(orientations), gain_terms(orientation_set(orientations).normal)
-    products = np.einsum("oi,on,nj->ijon", terms, energy, terms).reshape(25, *energy.shape)
-    between = sun @ sun.swapaxes(1, 2)
-    square = np.einsum("ton,kon->tk", between, products, optimize=True)
-    held = np.einsum("ton,no,ni->ti", straight @ sun.swapaxes(1, 2), energy, terms, optimize=True)
-    square, held = (nearby @ square).reshape(-1, 5, 5), nearby @ held
+    share = np.maximum(1.0 - reflectances, DARKER)
+    whole, part = straight @ (share / np.linalg.norm(share)), sun @ (share / np.linalg.norm(share))
+    terms = part[..., None] * gain_terms(orientation_set(orientations).normal)
+    energy = roughness(orientations) @ terms
+    square, held = terms.swapaxes(1, 2) @ energy, (whole[:, None, :] @ energy)[:, 0]
+    square, held = np.tensordot(nearby, square, axes=1), nearby @ held
     doubt = UNSURE * np.trace(square, axis1=1, axis2=2) / square.shape[1] + FAINT
     held[:, 0] += doubt
     return np.asarray(np.linalg.solve(square + doubt[:, None, None] * np.eye(held.shape[1]), held[..., None])[..., 0])

@@ -84,65 +84,68 @@ def wind_share(normal: FloatArray, towards: FloatArray) -> FloatArray:
 
 def fit_loss(
     temperature: FloatArray, level: FloatArray, reflectances: FloatArray, films: Films, terms: Terms
-) -> FloatArray:
-    """Loss (t, COLUMNS) above the air's temperature (t,) [K] of temperatures (t, o, r) [K] at reflectances (r,).
+) -> tuple[FloatArray, FloatArray]:
+    """Straightened (t, o, r) [K] of temperatures (t, o, r) [K] at reflectances (r,), and the loss (t, COLUMNS) of that.
 
-    Least squares of the second-order term in reflectance; without three reflectances nothing is bent.
+    Above the air's temperature `level` (t,) [K]. Least squares of the second-order term in reflectance; without three
+    reflectances nothing is bent.
     """
-    whole = np.stack(
-        [
-            np.zeros_like(level), np.full_like(level, films.emissivity * STEFAN_BOLTZMANN_CONSTANT), films.leeward,
-            films.windward, np.full_like(level, films.free),
-        ],
-        axis=1,
-    )  # fmt: skip
+    above, loss = temperature - level[:, None, None], np.tile(UNBENT, (level.size, 1))
     if reflectances.size < 3:
-        return np.broadcast_to(UNBENT, whole.shape).copy()
-    place, each = level[:, None, None], _columns(whole, (1, 1))
-    above = temperature - place
-    lost, slope = _loss(above, place, each, terms)
+        return above, loss
+    loss[:, 0], loss[:, 4] = 0.0, films.free
+    loss[:, 1] = films.emissivity * STEFAN_BOLTZMANN_CONSTANT
+    loss[:, 2], loss[:, 3] = films.leeward, films.windward
+    lost, slope = straighten(temperature, level, loss, terms)
     scale = slope.mean(axis=(1, 2))
+    lost /= scale[:, None, None]
+    lost -= above
     second = np.linalg.pinv(np.vander(reflectances, 3, increasing=True))[2]
-    own, more = above @ second, (lost / scale[:, None, None] - above) @ second
+    own, more = above @ second, lost @ second
     share = -np.sum(own * more, axis=1) / (np.sum(more**2, axis=1) + WEAK**2 * own.shape[1])
     share = np.clip(share, 0.0, 1.0)
-    whole[:, :4] *= (share / scale)[:, None]
-    whole[:, 4] *= (share / scale) ** 3
-    whole[:, 0] = 1.0 - share
-    return whole
+    loss[:, :4] *= (share / scale)[:, None]
+    loss[:, 4] *= (share / scale) ** 3
+    loss[:, 0] = 1.0 - share
+    return above + share[:, None, None] * lost, loss
 
 
 def straighten(
     temperature: FloatArray, level: FloatArray, loss: FloatArray, terms: Terms
 ) -> tuple[FloatArray, FloatArray]:
     """Straightened values (t, o, r) [K] of temperatures (t, o, r) [K] and their slopes (t, o, r) [-]."""
-    place = level[:, None, None]
-    return _loss(temperature - place, place, _columns(loss, (1, 1)), terms)
+    place, above = level[:, None, None], temperature - level[:, None, None]
+    known = _known(place, loss[:, None, None], terms)
+    return _loss(above, known)
 
 
 def bend_back(value: FloatArray, level: FloatArray, loss: FloatArray, terms: Terms) -> FloatArray:
     """Temperatures (m,) [K] of straightened values (m,) [K] of faces above levels (m,), with losses (m, COLUMNS)."""
-    above, columns = value, _columns(loss, ())
+    above, known = value, _known(level, loss, terms)
     for _ in range(NEWTON_STEPS):
-        straight, slope = _loss(above, level, columns, terms)
+        straight, slope = _loss(above, known)
         above = above - (straight - value) / slope
     return np.asarray(level + above)
 
 
-def _columns(loss: FloatArray, trailing: tuple[int, ...]) -> list[FloatArray]:
-    return [column.reshape(column.shape + trailing) for column in np.moveaxis(loss, -1, 0)]
-
-
-def _loss(
-    above: FloatArray, level: FloatArray, columns: list[FloatArray], terms: Terms
-) -> tuple[FloatArray, FloatArray]:
-    """Values and slopes, all of shapes that go together."""
-    own, radiation, leeward, windward, free = columns
+def _known(level: FloatArray, loss: FloatArray, terms: Terms) -> tuple[FloatArray, ...]:
+    """Per kelvin what a face loses at the temperature of the air, what radiation adds by its powers, films cubed."""
+    own, radiation, leeward, windward, free = np.moveaxis(loss, -1, 0)
     share, warmer, colder = terms
-    radiated = radiation * (4.0 * level**3 + above * (6.0 * level**2 + above * (4.0 * level + above)))
-    steeper = radiation * above * (6.0 * level**2 + above * (8.0 * level + 3.0 * above))
-    forced = leeward + share * windward
-    rising = free * np.where(above >= 0.0, warmer, colder) * np.abs(above)
-    film = np.cbrt(forced**3 + rising + LEAST)
-    per_kelvin = own + radiated + film
-    return above * per_kelvin, per_kelvin + steeper + rising / (3.0 * film**2)
+    film = (leeward + share * windward) ** 3 + LEAST
+    powers = own + 4.0 * radiation * level**3, 6.0 * radiation * level**2, 4.0 * radiation * level, radiation
+    return (*powers, film, free * warmer, free * colder)
+
+
+def _loss(above: FloatArray, known: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray]:
+    """Values and slopes, all of shapes that go together."""
+    first, second, third, fourth, forced, warmer, colder = known
+    rising = np.where(above >= 0.0, warmer, colder)
+    rising *= np.abs(above)
+    film = np.cbrt(forced + rising)
+    value = first + film
+    slope = value + rising / (3.0 * film * film)
+    value += above * (second + above * (third + above * fourth))
+    slope += above * (2.0 * second + above * (3.0 * third + above * (4.0 * fourth)))
+    value *= above
+    return value, slope
