@@ -24,7 +24,7 @@ from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.convection import free_film_cubed
 
-WEAK = 1.0  # [K] curvature of the loss in reflectance below which too little sun tells how much of it there is
+WEAK = 0.3  # [K] curvature of the loss in reflectance below which too little sun tells how much of it there is
 NEWTON_STEPS = 5  # from v, whose slope is about 1
 LEAST = 1e-30  # [-] of the cube of a film, so that there is a slope where air stands still at its own temperature
 COLUMNS = 5  # of a loss: a, r [K-3], l, d, f [K-1]
