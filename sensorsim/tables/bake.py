@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
@@ -13,7 +14,7 @@ from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
 from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
-from sensorsim.tables.history import wall_history
+from sensorsim.tables.history import make_ready, wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
@@ -21,9 +22,11 @@ from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
 from sensorsim.tables.sun_response import sun_response
+from sensorsim.thermal.boundary import Outside
+from sensorsim.thermal.convection import windward_share
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
-from sensorsim.thermal.lead_in import lead_in_of
+from sensorsim.thermal.lead_in import LeadIn, lead_in_of, longest
 from sensorsim.thermal.natural import melting_depth, surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
@@ -47,12 +50,11 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     scope = whole_scope(wall_types, settings) if scope is None else scope
-    own = settings.lead_in_days is None
-    begin = lead_in_of(ground, environment, own=own)
+    begin = lead_in_of(ground, environment, own=settings.lead_in_days is None)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
     bake = _prepare(environment, wall_types, soil, settings, plan, scope)
-    record = bake.record
-    rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
+    record, kept = bake.record, np.dtype(settings.precision)
+    rows, lead_ins = _bake_walls(bake, progress)
     return ShadeTables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
@@ -64,13 +66,15 @@ def bake_tables(
         lobes=_lobes(bake.sources, rows, kept),
         ground_temperature=soil[record],
         settings=settings,
-        lead_in=tuple(lead_in_of(wall, environment, own=own) for wall in wall_types),
+        lead_in=lead_ins,
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Solved:
     """Histories of a plain wall type at the slices."""
+
+    lead_in: LeadIn
 
     temperature: FloatArray  # (t, o, r) [K]
     weight: FloatArray | None  # (t, k + 1) of the lobes on a black surface [K]
@@ -82,6 +86,7 @@ class _Bake:
 
     environment: Environment
     exposure: Exposure
+    windward: FloatArray  # (t, o) of the orientations, see `convection.windward_share`
     settings: BakeSettings
     plan: EffectPlan
     scope: Scope
@@ -101,26 +106,39 @@ class _Bake:
 
     def solve(self, wall: WallType) -> _Solved:
         """March one plain wall type; orientations that no wall type needs of it are NaN."""
-        needed, whole = self.scope.of_part(self.wall_types, wall), self.exposure
-        part = Exposure(
-            normal=whole.normal[needed], irradiance=whole.irradiance[:, needed], longwave=whole.longwave[:, needed]
+        settings, environment = self.settings, self.environment
+        ready = make_ready(
+            environment, wall, own_lead_in=settings.lead_in_days is None, cell_size=settings.cell_size, plan=self.plan
         )
-        own = self.settings.lead_in_days is None
-        outside = surface_boundary(self.environment, part, wall, correlation=self.settings.convection, plan=self.plan)
-        solved = wall_history(
-            self.environment, outside, wall, 1.0 - self.reflectances, self.record, plan=self.plan,
-            lead_in=lead_in_of(wall, self.environment, own=own), cell_size=self.settings.cell_size,
-            stride=self.settings.lead_in_stride,
-        )  # fmt: skip
-        temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
-        temperature[:, needed] = solved
-        if self.sources is None:
-            return _Solved(temperature=temperature, weight=None)
-        response = sun_response(
-            self.environment, outside, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
-            first=self.sources.first, settings=self.settings, plan=self.plan,
-        )  # fmt: skip
-        return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
+        needed, outside = self._outside(wall)
+        temperature = wall_history(
+            environment, outside, ready, 1.0 - self.reflectances, self.record, stride=settings.lead_in_stride
+        )
+        if not np.all(needed):
+            solved = temperature
+            temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
+            temperature[:, needed] = solved
+        weight = None
+        if self.sources is not None:
+            response = sun_response(
+                ready, outside, temperature.mean(axis=2), self.record, light=self.sources.light,
+                first=self.sources.first, step=environment.step,
+            )  # fmt: skip
+            weight = lobe_weights(self.sources, response)
+        return _Solved(lead_in=ready.lead_in, temperature=temperature, weight=weight)
+
+    def _outside(self, wall: WallType) -> tuple[NDArray[np.bool_], Outside]:
+        """Which orientations (o,) are needed of a plain wall type, and what acts on those."""
+        needed, part, windward = self.scope.of_part(self.wall_types, wall), self.exposure, self.windward
+        if not np.all(needed):
+            part = Exposure(
+                normal=part.normal[needed], irradiance=part.irradiance[:, needed], longwave=part.longwave[:, needed]
+            )
+            windward = windward[:, needed]
+        outside = surface_boundary(
+            self.environment, part, wall, correlation=self.settings.convection, plan=self.plan, windward=windward
+        )
+        return needed, outside
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
         """Fit any wall type, from its parts where it is mixed."""
@@ -163,6 +181,7 @@ def _prepare(
     return _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
+        windward=windward_share(scope.solved, environment.wind_direction),
         settings=settings,
         plan=plan,
         scope=scope,
@@ -173,8 +192,8 @@ def _prepare(
     )
 
 
-def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
-    """Solve what the wall types are made of, and fit them."""
+def _bake_walls(bake: _Bake, progress: Progress | None) -> tuple[list[FittedWall], tuple[LeadIn, ...]]:
+    """Solve what the wall types are made of, and fit them; tells their lead-ins too."""
     wall_types = bake.wall_types
     plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, _Solved] = {}
@@ -184,7 +203,8 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
             solved[wall] = tasks[wall].result()
             if progress is not None:
                 progress(wall.name, len(solved), len(plain))
-        return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
+        rows = list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
+    return rows, tuple(longest([solved[part].lead_in for part in plain_walls(wall)]) for wall in wall_types)
 
 
 def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) -> FloatArray:

@@ -139,11 +139,13 @@ def outside_of(
     correlation: str = "mowitt",
     length: float | None = None,
     plan: EffectPlan = EVERYTHING,
+    windward: FloatArray | None = None,
 ) -> Outside:
     """Exterior boundary of a wall of a long-wave emissivity and a roughness class.
 
     `correlation` is one of `convection.CORRELATIONS`, `length` [m] that of the surface along the wind, which some of
-    them need. Air has the pressure of the site's altitude; free convection that of the mean temperature.
+    them need, `windward` (t, o) `convection.windward_share` for who has it already. Air has the pressure of the site's
+    altitude; free convection that of the mean temperature.
     """
     pressure = pressure_at(environment.site.altitude)
     film, still = np.zeros(exposure.irradiance.shape), np.zeros(exposure.normal.shape[0])
@@ -157,6 +159,7 @@ def outside_of(
             correlation=correlation,
             length=length,
             air=air_at(environment.air_temperature, pressure),
+            windward=windward,
         )
     if plan.has("free_convection"):
         mean = air_at(float(environment.air_temperature.mean()), pressure)

@@ -45,13 +45,16 @@ AERODYNAMIC = ("soil", "plants", "water", "snow")
 
 def surface_boundary(
     environment: Environment, exposure: Exposure, wall: WallType, *, correlation: str = "mowitt",
-    plan: EffectPlan = EVERYTHING,
+    plan: EffectPlan = EVERYTHING, windward: FloatArray | None = None,
 ) -> Outside:  # fmt: skip
-    """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun."""
+    """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun.
+
+    `windward` (t, o) is `convection.windward_share`, the same for all wall types, for who has it already.
+    """
     cover = wall.cover
     outside = outside_of(
         environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness, correlation=correlation,
-        length=wall.characteristic_length, plan=plan,
+        length=wall.characteristic_length, plan=plan, windward=windward,
     )  # fmt: skip
     if cover is not None and cover.kind in AERODYNAMIC:
         film, still = np.zeros(exposure.irradiance.shape), np.zeros_like(outside.free)
@@ -130,8 +133,11 @@ def _moisten(
         outside = outside._replace(film=film + rain_film(caught))
     if wall.interior == "none" and (cover is None or cover.kind in ("soil", "road")):
         wet = np.where((environment.ground_state == "wet")[:, None], 1.0, wet)
+    always = cover is not None and cover.kind in AERODYNAMIC
+    if not (plan.has("evaporation") and (always or np.any(wet > 0.0))):
+        return outside
     film = np.cbrt(film**3 + FREE_DIFFERENCE * outside.free)
-    if not (plan.has("evaporation") and np.any(film > 0.0)):
+    if not np.any(film > 0.0):
         return outside
     share = _evaporating_share(environment, cover, exposure, film, wet)
     if not np.any(share > 0.0):
