@@ -23,7 +23,7 @@ from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.boundary import Outside
-from sensorsim.thermal.convection import windward_share
+from sensorsim.thermal.convection import MOWITT, forced_film
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
 from sensorsim.thermal.lead_in import LeadIn, lead_in_of, longest
@@ -86,7 +86,7 @@ class _Bake:
 
     environment: Environment
     exposure: Exposure
-    windward: FloatArray  # (t, o) of the orientations, see `convection.windward_share`
+    smooth: FloatArray | None  # (t, o) see `heat_balance.outside_of`
     settings: BakeSettings
     plan: EffectPlan
     scope: Scope
@@ -129,14 +129,14 @@ class _Bake:
 
     def _outside(self, wall: WallType) -> tuple[NDArray[np.bool_], Outside]:
         """Which orientations (o,) are needed of a plain wall type, and what acts on those."""
-        needed, part, windward = self.scope.of_part(self.wall_types, wall), self.exposure, self.windward
+        needed, part, smooth = self.scope.of_part(self.wall_types, wall), self.exposure, self.smooth
         if not np.all(needed):
             part = Exposure(
                 normal=part.normal[needed], irradiance=part.irradiance[:, needed], longwave=part.longwave[:, needed]
             )
-            windward = windward[:, needed]
+            smooth = None if smooth is None else smooth[:, needed]
         outside = surface_boundary(
-            self.environment, part, wall, correlation=self.settings.convection, plan=self.plan, windward=windward
+            self.environment, part, wall, correlation=self.settings.convection, plan=self.plan, smooth=smooth
         )
         return needed, outside
 
@@ -158,8 +158,9 @@ class _Bake:
             for history, row in zip(plain, own, strict=True)
             if history.weight is not None
         ]
-        courses = [part.mean(axis=1, keepdims=True) for part in parts]
-        rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
+        rise = rises[0]
+        if wall.parts:
+            rise = mix_rises(wall, [part.mean(axis=1, keepdims=True) for part in parts], rises)
         return fit_lobes(temperature, rise, self.facing, self.settings.orientations, refl, degree)
 
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
@@ -181,7 +182,7 @@ def _prepare(
     return _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
-        windward=windward_share(scope.solved, environment.wind_direction),
+        smooth=_smooth_film(environment, scope.solved, settings.convection),
         settings=settings,
         plan=plan,
         scope=scope,
@@ -190,6 +191,14 @@ def _prepare(
         sources=sources,
         facing=None if sources is None else facing_lobes(sources, scope.solved),
     )
+
+
+def _smooth_film(environment: Environment, normal: FloatArray, correlation: str) -> FloatArray | None:
+    """Forced film (t, o) of very smooth surfaces, where that of all others is only so many times as much."""
+    if correlation not in MOWITT:
+        return None
+    wind = environment.wind_speed, environment.wind_direction
+    return forced_film(normal, *wind, "very_smooth", correlation=correlation)
 
 
 def _bake_walls(bake: _Bake, progress: Progress | None) -> tuple[list[FittedWall], tuple[LeadIn, ...]]:

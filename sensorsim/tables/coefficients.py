@@ -6,6 +6,7 @@ reflectances determine it. The fit is least squares, so it may also have fewer p
 
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -108,5 +109,10 @@ def lookup_orientations(settings: BakeSettings) -> OrientationSet:
 
 def fit_polynomials(temperature: FloatArray, reflectances: FloatArray, degree: int) -> FloatArray:
     """Coefficients (..., degree + 1) [K] of temperatures (..., r) [K] at reflectances (r,), by least squares."""
-    powers = np.vander(reflectances, degree + 1, increasing=True)
-    return np.asarray(temperature @ np.linalg.pinv(powers).T)
+    return np.asarray(temperature @ least_squares(tuple(reflectances.tolist()), degree).T)
+
+
+@lru_cache(maxsize=64)
+def least_squares(reflectances: tuple[float, ...], degree: int) -> FloatArray:
+    """From values at reflectances (r,) to the coefficients of the closest polynomial (degree + 1, r)."""
+    return np.asarray(np.linalg.pinv(np.vander(reflectances, degree + 1, increasing=True)))

@@ -8,6 +8,7 @@ the reflectance do.
 
 import numpy as np
 
+from sensorsim.tables.coefficients import least_squares
 from sensorsim.tables.orientations import FloatArray
 
 MOST_BEND = 0.05  # [K-1]
@@ -23,7 +24,7 @@ def fit_bend(temperature: FloatArray, reflectances: FloatArray) -> tuple[FloatAr
     if reflectances.size < 3:
         return level, np.zeros_like(level)
     above = temperature - level[:, None, None]
-    second = np.linalg.pinv(np.vander(reflectances, 3, increasing=True))[2]
+    second = least_squares(tuple(reflectances.tolist()), 2)[2]
     own, square = above @ second, above**2 @ second
     bend = -np.sum(own * square, axis=1) / (np.sum(square**2, axis=1) + WEAK**2 * square.shape[1])
     return level, np.clip(bend, 0.0, MOST_BEND)

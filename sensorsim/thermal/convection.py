@@ -56,7 +56,6 @@ def forced_film(
     correlation: str = "mowitt",
     length: float | None = None,
     air: Air | None = None,
-    windward: FloatArray | None = None,
 ) -> FloatArray:
     """Forced film (t, o) [W m-2 K-1] of orientations (o, 3) in wind (t,) [m s-1] that blows from (t,) [deg].
 
@@ -67,7 +66,6 @@ def forced_film(
     length : [m] of the surface along the wind; 'tarp' and 'flat_plate' need it
     air : (t,) or one state, for 'flat_plate'; 20 C at sea level where not given. Free air will do, as the film of a
         surface 20 K warmer is only 2 to 5 % less
-    windward : (t, o) `windward_share`, for who has it already
 
     Raises
     ------
@@ -76,7 +74,7 @@ def forced_film(
     if roughness not in ROUGHNESS_FACTOR:
         raise InputError("convection", "roughness", roughness, "unknown", f"use one of {', '.join(ROUGHNESS_FACTOR)}")
     factor = ROUGHNESS_FACTOR[roughness]
-    share = windward_share(normal, wind_direction) if windward is None else windward
+    share = windward_share(normal, wind_direction)
     if correlation in MOWITT:
         windward, leeward = (a * wind_speed**b for a, b in MOWITT[correlation])
         return _blend(share, factor * windward, factor * leeward)
