@@ -95,10 +95,11 @@ def _all(
     damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, a chunk at a time."""
-    lanes, failures = Index(lane.size), 0
+    failures = 0
     for start in range(first, last, CHUNK):
         stop = min(start + CHUNK, last)
         for begin in range(0, columns.orientation.size, lane.size):
+            lanes = min(Index(lane.size), Index(columns.orientation.size - begin + 7) & ~Index(7))
             take(lanes, w, c, lane, columns, outside.free, outside.free_colder, begin)
             sample(lanes, w, lane, outside, start)
             eliminate(lanes, w, c, place, cells.outward, cells.exchange[0, 4])
