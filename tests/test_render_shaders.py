@@ -45,8 +45,8 @@ def _shade(
     if moment is None:  # no lobes
         nothing, none = np.zeros(coefficients.shape[0]), np.zeros((coefficients.shape[0], 0, 2))
         moment = Moment(
-            coefficients=coefficients, level=nothing, loss=np.tile(UNBENT, (nothing.size, 1)), towards=np.zeros(2), knot=0.7,
-            direction=np.zeros((0, 3)), weight=none, gain=np.zeros((nothing.size, 5)),
+            coefficients=coefficients, level=nothing, loss=np.tile(UNBENT, (nothing.size, 1)), towards=np.zeros(2),
+            knot=0.7, direction=np.zeros((0, 3)), weight=none, gain=np.zeros((nothing.size, 5)),
         )  # fmt: skip
     most = moment.direction.shape[0] + 2
     textures = {

@@ -241,7 +241,7 @@ def _films() -> tuple[Films, np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarra
 
 
 def _lost(kelvin: np.ndarray, air: float, films: Films, normal: np.ndarray) -> np.ndarray:
-    """Heat (o, r) [W m-2] that a face loses beyond what it would at the temperature of the air, by its films' own laws."""
+    """Heat (o, r) [W m-2] that a face loses beyond that at the temperature of the air, by the laws of its films."""
     windward = windward_share(normal, np.array([np.degrees(np.arctan2(-0.6, -0.8))]))[0]
     forced = films.leeward[0] + films.windward[0] * windward
     free = np.stack([free_film_cubed(normal, warmer=warm) for warm in (False, True)])
@@ -264,7 +264,7 @@ def test_what_a_face_without_mass_absorbs_is_straight_in_the_straightened_temper
 
 
 def test_loss_is_believed_as_far_as_it_straightens_and_comes_back() -> None:
-    """Faces without mass at three reflectances, 60 K apart: curvature falls tenfold, temperatures come back to 0.1 mK."""
+    """Faces without mass at three reflectances, 60 K apart: curvature falls tenfold, temperatures come back."""
     films, normal, terms = _films()
     reflectance, facing = np.array([0.07, 0.5, 0.93]), np.maximum(normal @ np.array([0.36, -0.48, 0.8]), 0.0)
     heat = 900.0 * np.outer(facing, 1.0 - reflectance) - 60.0

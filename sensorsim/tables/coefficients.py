@@ -6,6 +6,7 @@ reflectances determine it. The fit is least squares, so it may also have fewer p
 
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -64,7 +65,8 @@ class ShadeTables:
         level, loss = self._between(self.level, index, share), self._between(self.loss, index, share)
         if self.lobes is None:
             coefficients[..., 0] += level[:, None]
-            level = np.zeros_like(level)
+            level, loss = np.zeros_like(level), np.zeros_like(loss)
+            loss[:, 0] = 1.0
         direction, weight, gain = np.zeros((0, 3)), np.zeros((level.size, 0, 2)), np.zeros((level.size, 5))
         if self.lobes is not None:
             direction, weight = self.lobes.at(index, share)
@@ -115,14 +117,18 @@ def reflectance_powers(reflectance: FloatArray, count: int, knot: float) -> Floa
 
     A light face may pass the temperature of its air, and then its free film turns over: what a cubic misses lies there.
     """
-    powers = np.vander(reflectance, count, increasing=True)
+    powers = np.asarray(np.vander(reflectance, count, increasing=True), dtype=np.float64)
     if count > UNKNOTTED:
         powers[:, -1] = np.maximum(reflectance - knot, 0.0) ** (count - 1)
     return powers
 
 
-def fit_polynomials(
-    temperature: FloatArray, reflectances: FloatArray, degree: int, *, knot: float = 0.0
-) -> FloatArray:
+def fit_polynomials(temperature: FloatArray, reflectances: FloatArray, degree: int, *, knot: float = 0.0) -> FloatArray:
     """Coefficients (..., degree + 1) [K] of temperatures (..., r) [K] at reflectances (r,), by least squares."""
-    return np.asarray(temperature @ np.linalg.pinv(reflectance_powers(reflectances, degree + 1, knot)).T)
+    return np.asarray(temperature @ least_squares(tuple(reflectances.tolist()), degree, knot).T)
+
+
+@lru_cache(maxsize=64)
+def least_squares(reflectances: tuple[float, ...], degree: int, knot: float = 0.0) -> FloatArray:
+    """From values at reflectances (r,) to the coefficients of the closest polynomial (degree + 1, r)."""
+    return np.asarray(np.linalg.pinv(reflectance_powers(np.asarray(reflectances), degree + 1, knot)))

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.materials import WallType
+from sensorsim.tables.coefficients import least_squares
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.convection import free_film_cubed
@@ -100,7 +101,7 @@ def fit_loss(
     scale = slope.mean(axis=(1, 2))
     lost /= scale[:, None, None]
     lost -= above
-    second = np.linalg.pinv(np.vander(reflectances, 3, increasing=True))[2]
+    second = least_squares(tuple(reflectances.tolist()), 2)[2]
     own, more = above @ second, lost @ second
     share = -np.sum(own * more, axis=1) / (np.sum(more**2, axis=1) + WEAK**2 * own.shape[1])
     share = np.clip(share, 0.0, 1.0)
