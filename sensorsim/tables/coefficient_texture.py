@@ -45,7 +45,7 @@ def shade_texels(tables: ShadeTables, time_of_day: float, *, most: int | None = 
 
 
 def lobe_texels(moment: Moment, most: int) -> NDArray[np.float32]:
-    """Texels (1 + w, HEAD + most, 4) of the losses and of `most` lobes or fewer; layout in shaders/radiance/lobes.glsl."""
+    """Texels (1 + w, HEAD + most, 4) of losses and of `most` lobes or fewer; layout in shaders/radiance/lobes.glsl."""
     walls, count = moment.weight.shape[:2]
     texels = np.zeros((1 + walls, HEAD + most, 4), dtype=np.float32)
     texels[0, 0, 0], texels[0, 0, 1:3] = count, moment.towards
