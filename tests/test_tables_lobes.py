@@ -236,8 +236,7 @@ def _films() -> tuple[Films, np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarra
     """Films of a light wind from the south-west, normals (o, 3) and what the films go by."""
     normal, towards = orientation_set("octahedron66").normal, np.array([[-0.6, -0.8]])
     films = Films(emissivity=0.9, leeward=np.array([3.0]), windward=np.array([4.0]), free=2.0)
-    warmer, colder = tilt_terms(normal)
-    return films, normal, (wind_share(normal, towards)[..., None], warmer[:, None], colder[:, None])
+    return films, normal, (wind_share(normal, towards), *tilt_terms(normal))
 
 
 def _lost(kelvin: np.ndarray, air: float, films: Films, normal: np.ndarray) -> np.ndarray:

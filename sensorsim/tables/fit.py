@@ -48,7 +48,7 @@ class FitFrame:
     knot: float
     facing: FloatArray  # (t, k + 1, o) cosine to the lobes, 0 behind them
     air: FloatArray  # (t,) [K]
-    terms: Terms  # of the films, (t, o, 1) and (o, 1)
+    terms: Terms  # of the films, (t, o) and (o,)
     nearby: FloatArray  # (t, t) weights of the slices around, which sum to one
 
 
@@ -58,11 +58,10 @@ def fit_frame(
 ) -> FitFrame:  # fmt: skip
     """Frame of fits at slices of times (t,) [s], under air (t,) [K] and wind from directions (t, 2)."""
     normal = orientation_set(settings.orientations).normal
-    warmer, colder = tilt_terms(normal)
     return FitFrame(
         orientations=settings.orientations, reflectances=np.asarray(reflectances, dtype=np.float64),
         degree=min(settings.degree, len(reflectances) - 1), knot=settings.knot, facing=facing, air=air,
-        terms=(wind_share(normal, towards)[..., None], warmer[:, None], colder[:, None]), nearby=nearby_slices(clock),
+        terms=(wind_share(normal, towards), *tilt_terms(normal)), nearby=nearby_slices(clock),
     )  # fmt: skip
 
 
@@ -89,7 +88,8 @@ def fit_lobes(temperature: FloatArray, rise: FloatArray, films: Films, frame: Fi
 
     Both straightened: rises are what they are at the mean temperature of all orientations and reflectances.
     """
-    reflectances, mean = frame.reflectances, temperature.mean(axis=(1, 2), keepdims=True)
+    reflectances, alike = frame.reflectances, (*temperature.shape[:2], 1)
+    mean = np.broadcast_to(temperature.mean(axis=(1, 2), keepdims=True), alike)
     straight, loss = fit_loss(temperature, frame.air, reflectances, films, frame.terms)
     stretch = straighten(mean, frame.air, loss, frame.terms)[1].mean(axis=1, keepdims=True)
     weight = np.zeros((*rise.shape[:2], 2))

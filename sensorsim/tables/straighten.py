@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
@@ -115,38 +116,63 @@ def straighten(
     temperature: FloatArray, level: FloatArray, loss: FloatArray, terms: Terms
 ) -> tuple[FloatArray, FloatArray]:
     """Straightened values (t, o, r) [K] of temperatures (t, o, r) [K] and their slopes (t, o, r) [-]."""
-    place, above = level[:, None, None], temperature - level[:, None, None]
-    known = _known(place, loss[:, None, None], terms)
-    return _loss(above, known)
+    own, radiation, leeward, windward, free = loss.T
+    share, warmer, colder = terms
+    forced = (leeward[:, None] + share * windward[:, None]) ** 3 + LEAST
+    above = temperature - level[:, None, None]
+    value, slope = np.zeros(above.shape), np.zeros(above.shape)
+    _straighten(above, _powers(own, radiation, level), forced, free, warmer, colder, value, slope)
+    return value, slope
 
 
 def bend_back(value: FloatArray, level: FloatArray, loss: FloatArray, terms: Terms) -> FloatArray:
     """Temperatures (m,) [K] of straightened values (m,) [K] of faces above levels (m,), with losses (m, COLUMNS)."""
-    above, known = value, _known(level, loss, terms)
-    for _ in range(NEWTON_STEPS):
-        straight, slope = _loss(above, known)
-        above = above - (straight - value) / slope
+    own, radiation, leeward, windward, free = loss.T
+    share, warmer, colder = terms
+    forced, above = (leeward + share * windward) ** 3 + LEAST, np.zeros(value.shape)
+    _bend_back(value, _powers(own, radiation, level), forced, free * warmer, free * colder, above)
     return np.asarray(level + above)
 
 
-def _known(level: FloatArray, loss: FloatArray, terms: Terms) -> tuple[FloatArray, ...]:
-    """Per kelvin what a face loses at the temperature of the air, what radiation adds by its powers, films cubed."""
-    own, radiation, leeward, windward, free = np.moveaxis(loss, -1, 0)
-    share, warmer, colder = terms
-    film = (leeward + share * windward) ** 3 + LEAST
-    powers = own + 4.0 * radiation * level**3, 6.0 * radiation * level**2, 4.0 * radiation * level, radiation
-    return (*powers, film, free * warmer, free * colder)
+def _powers(own: FloatArray, radiation: FloatArray, level: FloatArray) -> FloatArray:
+    """What a face loses per kelvin without its films, by powers (m, 4) of its temperature above the air's."""
+    return np.stack(
+        [own + 4.0 * radiation * level**3, 6.0 * radiation * level**2, 4.0 * radiation * level, radiation], 1
+    )
 
 
-def _loss(above: FloatArray, known: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray]:
-    """Values and slopes, all of shapes that go together."""
-    first, second, third, fourth, forced, warmer, colder = known
-    rising = np.where(above >= 0.0, warmer, colder)
-    rising *= np.abs(above)
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _lost(above: float, powers: FloatArray, forced: float, free: float) -> tuple[float, float]:
+    """Value and slope of one face, its forced film cubed, its free one per kelvin."""
+    rising = free * abs(above)
     film = np.cbrt(forced + rising)
-    value = first + film
-    slope = value + rising / (3.0 * film * film)
-    value += above * (second + above * (third + above * fourth))
-    slope += above * (2.0 * second + above * (3.0 * third + above * (4.0 * fourth)))
-    value *= above
-    return value, slope
+    per_kelvin = powers[0] + above * (powers[1] + above * (powers[2] + above * powers[3])) + film
+    steeper = above * (powers[1] + above * (2.0 * powers[2] + 3.0 * above * powers[3]))
+    return above * per_kelvin, per_kelvin + steeper + rising / (3.0 * film * film)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _straighten(
+    above: FloatArray, powers: FloatArray, forced: FloatArray, free: FloatArray, warmer: FloatArray,
+    colder: FloatArray, value: FloatArray, slope: FloatArray,
+) -> None:  # fmt: skip
+    """Faces (t, o, r), of powers (t, 4), forced films (t, o) and free ones by time (t,) and tilt (o,)."""
+    for t in range(above.shape[0]):
+        for o in range(above.shape[1]):
+            rising, falling = free[t] * warmer[o], free[t] * colder[o]
+            for r in range(above.shape[2]):
+                y = above[t, o, r]
+                value[t, o, r], slope[t, o, r] = _lost(y, powers[t], forced[t, o], rising if y >= 0.0 else falling)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _bend_back(
+    value: FloatArray, powers: FloatArray, forced: FloatArray, warmer: FloatArray, colder: FloatArray, above: FloatArray
+) -> None:
+    """Newton's steps of faces (m,)."""
+    for m in range(value.size):
+        y = value[m]
+        for _ in range(NEWTON_STEPS):
+            straight, slope = _lost(y, powers[m], forced[m], warmer[m] if y >= 0.0 else colder[m])
+            y -= (straight - value[m]) / slope
+        above[m] = y
