@@ -112,7 +112,7 @@ def test_lobe_that_a_surface_did_not_see_leaves_it_colder_and_others_alone() -> 
 
 
 def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
-    """Winter daylight, random normals against their own full solve: 99 of 100 within 0.15 K, a fifth of the plain."""
+    """Winter daylight, random normals against their own full solve: 99 of 100 within 0.06 K, a twentieth of the plain."""
     hours = np.array([7.0, 8.0, 10.0, 12.5, 15.0, 16.5, 20.0]) * 3600.0
     surfaces = Surfaces(
         wall_types=wall_types(), normal=random_normals(80), reflectance=np.array([0.05, 0.5, 0.95]), time_of_day=hours
@@ -122,16 +122,15 @@ def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
     with_lobes = summarise(surfaces, fit_error(tables(), surfaces, solved))
     plain = bake_tables(environment(), wall_types(), ground=ground, settings=replace(SETTINGS, lobes=0.0))
     without = summarise(surfaces, fit_error(plain, surfaces, solved))
-    assert with_lobes.p99 < 0.15
-    assert with_lobes.max < 0.4
-    assert with_lobes.p99 < without.p99 / 5.0
+    assert with_lobes.p99 < 0.06
+    assert with_lobes.max < 0.3
+    assert with_lobes.p99 < without.p99 / 20.0
 
 
 def test_windless_sun_bends_the_response_and_the_tables_follow_it() -> None:
     """The hardest there is: roof and sheet metal by day under a clear summer sky without any wind, 60 K apart.
 
-    Expected: 99 of 100 within 0.4 K. Farthest off are light roofs whose free film turns over as they pass the air's
-    temperature, between two of the reflectances that are solved.
+    Expected: 99 of 100 within 0.22 K. Farthest off are roofs near the edge of the sun of the morning.
     """
     weather, day = read_weather("summer"), date(1976, 9, 2)
     none = np.zeros_like(weather.wind_speed)
@@ -147,9 +146,9 @@ def test_windless_sun_bends_the_response_and_the_tables_follow_it() -> None:
     baked = bake_tables(calm, surfaces.wall_types, ground=ground, settings=SETTINGS)
     miss = summarise(surfaces, fit_error(baked, surfaces, solved))
     assert np.ptp(np.stack(solved)) > 60.0
-    assert miss.rms < 0.12
-    assert miss.p99 < 0.4
-    assert miss.max < 0.7
+    assert miss.rms < 0.06
+    assert miss.p99 < 0.22
+    assert miss.max < 0.45
 
 
 def test_melting_snow_is_as_exact_as_walls() -> None:
