@@ -13,6 +13,7 @@ from sensorsim.effects import EVERYTHING, EffectPlan, Situation
 from sensorsim.environment import Environment, Weather, build_environment, read_weather
 from sensorsim.materials import Layer, WallType, load_catalogue
 from sensorsim.tables import BakeSettings, bake_tables
+from sensorsim.tables.coefficients import reflectance_powers
 from sensorsim.tables.faces import ground_face, wall_face
 from sensorsim.tables.orientations import orientation_set
 
@@ -69,7 +70,7 @@ def temperatures(
 ) -> FloatArray:  # fmt: skip
     """Temperature [K] of all walls, orientations and solved reflectances, and of the ground, as one row per slice."""
     tables = bake_tables(weather, walls, ground=ground, settings=settings, plan=plan)
-    powers = np.vander(settings.reflectances, settings.degree + 1, increasing=True)
+    powers = reflectance_powers(np.asarray(settings.reflectances), settings.degree + 1, settings.knot)
     solved = tables.coefficients.astype(np.float64) @ powers.T + tables.level[:, :, None, None]
     return np.column_stack([solved.reshape(tables.time_of_day.size, -1), tables.ground_temperature])
 

@@ -22,7 +22,7 @@ DAY = date(1976, 2, 7)
 SETTINGS = BakeSettings(slice_interval=1800.0, lead_in_days=1.0)
 PLAIN = BakeSettings(
     orientations="icosphere42", interpolation="barycentric", lobes=0.0, reflectances=(0.1, 0.3, 0.5, 0.7, 0.9),
-    degree=4, slice_interval=1800.0, lead_in_days=1.0, lead_in_stride=1,
+    degree=4, knot=0.0, slice_interval=1800.0, lead_in_days=1.0, lead_in_stride=1,
 )  # fmt: skip
 LONGITUDE, LATITUDE = -84.02, 39.82
 

@@ -10,6 +10,7 @@ from sensorsim.environment import AirPath
 from sensorsim.render import Illumination, Renderer, World, look_at
 from sensorsim.render.illumination import SKY_ENTRIES
 from sensorsim.sensor import load_sensor
+from sensorsim.tables.straighten import UNBENT
 
 SIZE = (80, 60)
 VIEWS = (
@@ -28,7 +29,7 @@ def _world(temperature: float, emissivity: float | None) -> World:
         world.tables,
         coefficients=np.zeros_like(world.tables.coefficients),
         level=np.full_like(world.tables.level, temperature),
-        bend=np.zeros_like(world.tables.bend),
+        loss=np.broadcast_to(UNBENT, world.tables.loss.shape),
         lobes=replace(lobes, weight=np.zeros_like(lobes.weight)),
         ground_temperature=np.full_like(world.tables.ground_temperature, temperature),
     )

@@ -19,6 +19,7 @@ from sensorsim.render.mirror import mirror_glsl, mirror_table, rise_table
 from sensorsim.tables import LookupTable, ShadeTables, evaluate_polynomial, surface_temperature
 from sensorsim.tables.coefficient_texture import coefficient_glsl, coefficient_texels, lobe_texels
 from sensorsim.tables.coefficients import Moment
+from sensorsim.tables.straighten import UNBENT
 from sensorsim.thermal import quadrant_view_factors
 
 COUNT = 3000
@@ -44,8 +45,8 @@ def _shade(
     if moment is None:  # no lobes
         nothing, none = np.zeros(coefficients.shape[0]), np.zeros((coefficients.shape[0], 0, 2))
         moment = Moment(
-            coefficients=coefficients, level=nothing, bend=nothing, direction=np.zeros((0, 3)), weight=none,
-            gain=np.zeros((nothing.size, 5)),
+            coefficients=coefficients, level=nothing, loss=np.tile(UNBENT, (nothing.size, 1)), towards=np.zeros(2),
+            knot=0.7, direction=np.zeros((0, 3)), weight=none, gain=np.zeros((nothing.size, 5)),
         )  # fmt: skip
     most = moment.direction.shape[0] + 2
     textures = {
@@ -55,7 +56,7 @@ def _shade(
     result = evaluate(
         ctx, "surface_temperature(wall_type, corner.xyz, weight, reflectance, normal)", inputs,
         include=["radiance/shade.glsl"],
-        generated={"coefficients": coefficient_glsl(coefficients.shape[-1])},
+        generated={"coefficients": coefficient_glsl(coefficients.shape[-1], moment.knot)},
         tables=textures,
     )  # fmt: skip
     for texture in textures.values():
@@ -91,7 +92,8 @@ def test_polynomials_of_any_degree_are_read_whole(ctx: moderngl.Context, powers:
         "wall_type": wall, "corner": corner, "weight": weight, "reflectance": reflectance, "normal": random_normals(500)
     }  # fmt: skip
     blended = np.einsum("mk,mkp->mp", weight, coefficients[wall[:, None], corner[:, :3]])
-    np.testing.assert_allclose(_shade(ctx, coefficients, inputs), evaluate_polynomial(blended, reflectance), atol=1e-4)
+    twin = evaluate_polynomial(blended, reflectance, knot=0.7)
+    np.testing.assert_allclose(_shade(ctx, coefficients, inputs), twin, atol=1e-4)
 
 
 def _emitted(ctx: moderngl.Context, table: BandTable, mirror: np.ndarray, inputs: dict[str, np.ndarray]) -> np.ndarray:

@@ -12,7 +12,7 @@ from sensorsim.environment import Environment, build_environment, longest_lead_i
 from sensorsim.errors import InputError
 from sensorsim.materials import WallType, load_catalogue
 from sensorsim.tables import BakeSettings, bake_tables, orientation_set
-from sensorsim.tables.history import solve_histories, wall_history
+from sensorsim.tables.history import make_ready, solve_histories, wall_history
 from sensorsim.thermal import expose, ground_temperature, surface_boundary
 from sensorsim.thermal.lead_in import LEAST_STEPS, LeadIn, lead_in_of, time_constant
 
@@ -34,7 +34,8 @@ def history(wall: WallType, environment: Environment, lead_in: LeadIn) -> np.nda
     exposure = expose(environment, orientation_set("report10").normal, soil)
     record = environment.image_window.start + np.arange(0, 145, 6)
     outside = surface_boundary(environment, exposure, wall)
-    return wall_history(environment, outside, wall, ABSORPTANCES, record, lead_in=lead_in)
+    ready = replace(make_ready(environment, wall, own_lead_in=True), lead_in=lead_in)
+    return wall_history(environment, outside, ready, ABSORPTANCES, record)
 
 
 def whole(environment: Environment, *, repeated: bool) -> LeadIn:

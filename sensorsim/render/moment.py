@@ -20,7 +20,7 @@ from sensorsim.render.passes import TEXTURE_UNITS
 from sensorsim.render.surface_table import set_offsets, surface_table
 from sensorsim.render.world import World
 from sensorsim.tables import LookupTable
-from sensorsim.tables.coefficient_texture import coefficient_glsl, shade_texels
+from sensorsim.tables.coefficient_texture import HEAD, coefficient_glsl, shade_texels
 
 
 class MomentTables:
@@ -44,10 +44,10 @@ class MomentTables:
         }
         self.textures = {name: float_table(ctx, name, values) for name, values in texels.items()}
         lobes = world.tables.lobes
-        self.most = 0 if lobes is None else self.textures["lobe_table"].width - 2  # of them at any time
+        self.most = 0 if lobes is None else self.textures["lobe_table"].width - HEAD  # of them at any time
         self.block = ctx.buffer(reserve=ILLUMINATION.dtype.itemsize)
         self.generated = {
-            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1]),
+            "coefficients": coefficient_glsl(world.tables.coefficients.shape[-1], world.tables.settings.knot),
             "band_radiance": band.glsl(),
             **{table.name: table.glsl() for table in skies},
             "mirror_size": mirror_glsl(),

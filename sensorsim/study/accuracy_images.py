@@ -19,6 +19,7 @@ from sensorsim.study.accuracy_measure import TIMES, StudyDay
 from sensorsim.tables import ShadeTables, preset
 from sensorsim.tables.coefficients import lookup_orientations
 from sensorsim.tables.orientations import FloatArray
+from sensorsim.tables.straighten import COLUMNS, UNBENT
 
 HOURS = (7.0, 10.0, 13.0, 17.0)  # of section IV of [Report1978]
 SIZE = (640, 480)
@@ -64,7 +65,8 @@ def true_world(world: World, day: StudyDay, temperature: FloatArray) -> World:
         orientations=orientations,
         coefficients=np.tile(temperature[:, :, None, None], copies).astype(np.float32),
         level=np.zeros(temperature.shape),
-        bend=np.zeros(temperature.shape),
+        loss=np.broadcast_to(UNBENT, (*temperature.shape, COLUMNS)),
+        towards=np.zeros((TIMES.size, 2)),
         lobes=None,
         ground_temperature=np.interp(TIMES, world.tables.time_of_day, world.tables.ground_temperature),
         settings=plain,

@@ -10,7 +10,7 @@ from sensorsim.tables import PRESETS, BakeSettings, preset
 from sensorsim.tables.full_solve import fine_settings
 
 BASELINE = "standard"  # that one knob at a time is turned away from
-TWO, THREE, FOUR, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.02, 0.35, 0.8, 0.98), (0.1, 0.3, 0.5, 0.7, 0.9)
+TWO, THREE, FOUR, FIVE = (0.07, 0.93), (0.07, 0.5, 0.93), (0.05, 0.45, 0.8, 0.95), (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +67,10 @@ FACTORS: Mapping[str, Factor] = {
     "degree": Factor(
         title="degree of the polynomial through five reflectances",
         values=tuple((str(degree), {"reflectances": FIVE, "degree": degree}) for degree in (0, 1, 2, 3, 4)),
+    ),
+    "knot": Factor(
+        title="reflectance at which the last power of four begins, 0 for a cubic",
+        values=_values("knot", 0.0, 0.4, 0.6, 0.7),
     ),
     "step": Factor(
         title="step of the march [s]",

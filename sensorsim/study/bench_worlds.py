@@ -44,7 +44,7 @@ def with_wall_types(world: World, times: int) -> World:
     more = replace(
         tables, wall_types=tables.wall_types * times, lead_in=tables.lead_in * times, lobes=lobes,
         coefficients=np.concatenate([tables.coefficients] * times, axis=1),
-        level=np.concatenate([tables.level] * times, axis=1), bend=np.concatenate([tables.bend] * times, axis=1),
+        level=np.concatenate([tables.level] * times, axis=1), loss=np.concatenate([tables.loss] * times, axis=1),
     )  # fmt: skip
     turn = np.arange(assignment.wall_type.size) % times
     rows = (assignment.wall_type + walls * turn).astype(assignment.wall_type.dtype)

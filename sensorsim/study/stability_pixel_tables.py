@@ -43,7 +43,7 @@ def _only(tables: ShadeTables, index: int) -> ShadeTables:
         lobes = replace(lobes, sun=lobes.sun[twice], weight=lobes.weight[twice], gain=lobes.gain[twice])
     return replace(
         tables, time_of_day=np.array([0.0, MIDNIGHT]), coefficients=tables.coefficients[twice],
-        level=tables.level[twice], bend=tables.bend[twice], lobes=lobes,
+        level=tables.level[twice], loss=tables.loss[twice], towards=tables.towards[twice], lobes=lobes,
     )  # fmt: skip
 
 

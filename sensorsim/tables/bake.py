@@ -6,24 +6,28 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
-from sensorsim.tables.coefficients import ShadeTables, fit_polynomials
-from sensorsim.tables.fit import FittedWall, fit_lobes, fit_plain
-from sensorsim.tables.history import wall_history
+from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, reflectance_powers
+from sensorsim.tables.fit import FitFrame, FittedWall, fit_frame, fit_lobes, fit_plain
+from sensorsim.tables.history import make_ready, wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
+from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films
 from sensorsim.tables.sun_response import sun_response
+from sensorsim.thermal.boundary import Outside
+from sensorsim.thermal.convection import MOWITT, forced_film
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose
-from sensorsim.thermal.lead_in import lead_in_of
+from sensorsim.thermal.lead_in import LeadIn, lead_in_of, longest
 from sensorsim.thermal.natural import melting_depth, surface_boundary
 
 Progress = Callable[[str, int, int], None]  # what was done, how many of how many
@@ -47,12 +51,11 @@ def bake_tables(
     """
     settings = BakeSettings() if settings is None else settings
     scope = whole_scope(wall_types, settings) if scope is None else scope
-    own = settings.lead_in_days is None
-    begin = lead_in_of(ground, environment, own=own)
+    begin = lead_in_of(ground, environment, own=settings.lead_in_days is None)
     soil = ground_temperature(environment, ground, sky=settings.sky, repeated=begin.repeated, plan=plan)
     bake = _prepare(environment, wall_types, soil, settings, plan, scope)
-    record = bake.record
-    rows, kept = _bake_walls(bake, progress), np.dtype(settings.precision)
+    record, kept = bake.record, np.dtype(settings.precision)
+    rows, lead_ins = _bake_walls(bake, progress)
     return ShadeTables(
         day=environment.image_start.date(),
         time_of_day=(record - record[0]) * environment.step,
@@ -60,11 +63,12 @@ def bake_tables(
         orientations=scope.lookup,
         coefficients=np.stack([row.coefficients for row in rows], axis=1).astype(kept),
         level=np.stack([row.level for row in rows], axis=1),
-        bend=np.stack([row.bend for row in rows], axis=1),
+        loss=np.stack([row.loss for row in rows], axis=1),
+        towards=bake.towards,
         lobes=_lobes(bake.sources, rows, kept),
         ground_temperature=soil[record],
         settings=settings,
-        lead_in=tuple(lead_in_of(wall, environment, own=own) for wall in wall_types),
+        lead_in=lead_ins,
     )
 
 
@@ -72,8 +76,10 @@ def bake_tables(
 class _Solved:
     """Histories of a plain wall type at the slices."""
 
+    lead_in: LeadIn
     temperature: FloatArray  # (t, o, r) [K]
     weight: FloatArray | None  # (t, k + 1) of the lobes on a black surface [K]
+    films: Films | None  # of its face
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -82,13 +88,15 @@ class _Bake:
 
     environment: Environment
     exposure: Exposure
+    smooth: FloatArray | None  # (t, o) see `heat_balance.outside_of`
     settings: BakeSettings
     plan: EffectPlan
     scope: Scope
     wall_types: tuple[WallType, ...]
     record: IntArray  # (t,) samples of the slices
     sources: LobeSources | None
-    facing: FloatArray | None  # (t, k + 1, o) of the solved orientations to the lobes
+    towards: FloatArray  # (t, 2) where the wind comes from, east and north
+    frame: FitFrame | None  # with lobes
 
     @property
     def reflectances(self) -> FloatArray:
@@ -101,26 +109,40 @@ class _Bake:
 
     def solve(self, wall: WallType) -> _Solved:
         """March one plain wall type; orientations that no wall type needs of it are NaN."""
-        needed, whole = self.scope.of_part(self.wall_types, wall), self.exposure
-        part = Exposure(
-            normal=whole.normal[needed], irradiance=whole.irradiance[:, needed], longwave=whole.longwave[:, needed]
+        settings, environment = self.settings, self.environment
+        ready = make_ready(
+            environment, wall, own_lead_in=settings.lead_in_days is None, cell_size=settings.cell_size, plan=self.plan
         )
-        own = self.settings.lead_in_days is None
-        outside = surface_boundary(self.environment, part, wall, correlation=self.settings.convection, plan=self.plan)
-        solved = wall_history(
-            self.environment, outside, wall, 1.0 - self.reflectances, self.record, plan=self.plan,
-            lead_in=lead_in_of(wall, self.environment, own=own), cell_size=self.settings.cell_size,
-            stride=self.settings.lead_in_stride,
-        )  # fmt: skip
-        temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
-        temperature[:, needed] = solved
-        if self.sources is None:
-            return _Solved(temperature=temperature, weight=None)
-        response = sun_response(
-            self.environment, outside, wall, temperature.mean(axis=2), self.record, light=self.sources.light,
-            first=self.sources.first, settings=self.settings, plan=self.plan,
-        )  # fmt: skip
-        return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
+        needed, outside = self._outside(wall)
+        temperature = wall_history(
+            environment, outside, ready, 1.0 - self.reflectances, self.record, stride=settings.lead_in_stride
+        )
+        if not np.all(needed):
+            solved = temperature
+            temperature = np.full((solved.shape[0], needed.size, solved.shape[2]), np.nan)
+            temperature[:, needed] = solved
+        weight, films = None, None
+        if self.sources is not None:
+            response = sun_response(
+                ready, outside, temperature.mean(axis=2), self.record, light=self.sources.light,
+                first=self.sources.first, step=environment.step,
+            )  # fmt: skip
+            weight = lobe_weights(self.sources, response)
+            films = films_of(outside, self.record, self.exposure.normal, self.towards)
+        return _Solved(lead_in=ready.lead_in, temperature=temperature, weight=weight, films=films)
+
+    def _outside(self, wall: WallType) -> tuple[NDArray[np.bool_], Outside]:
+        """Which orientations (o,) are needed of a plain wall type, and what acts on those."""
+        needed, part, smooth = self.scope.of_part(self.wall_types, wall), self.exposure, self.smooth
+        if not np.all(needed):
+            part = Exposure(
+                normal=part.normal[needed], irradiance=part.irradiance[:, needed], longwave=part.longwave[:, needed]
+            )
+            smooth = None if smooth is None else smooth[:, needed]
+        outside = surface_boundary(
+            self.environment, part, wall, correlation=self.settings.convection, plan=self.plan, smooth=smooth
+        )
+        return needed, outside
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
         """Fit any wall type, from its parts where it is mixed."""
@@ -129,25 +151,27 @@ class _Bake:
         own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
         plain = [solved[part] for part in plain_walls(wall)]
         parts = [
-            _at(history.temperature, refl, row) if wall.parts else history.temperature
+            _at(history.temperature, refl, row, self.settings.knot) if wall.parts else history.temperature
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
-        if self.facing is None:
+        if self.frame is None:
             return self._fit_needed(wall, temperature, degree)
         rises = [
             history.weight[..., None] * (1.0 - row)
             for history, row in zip(plain, own, strict=True)
             if history.weight is not None
         ]
-        courses = [part.mean(axis=1, keepdims=True) for part in parts]
-        rise = mix_rises(wall, courses, rises) if wall.parts else rises[0]
-        return fit_lobes(temperature, rise, self.facing, self.settings.orientations, refl, degree)
+        films = [history.films for history in plain if history.films is not None]
+        if not wall.parts:
+            return fit_lobes(temperature, rises[0], films[0], self.frame)
+        rise = mix_rises(wall, [part.mean(axis=1, keepdims=True) for part in parts], rises)
+        return fit_lobes(temperature, rise, mix_films(wall, films), self.frame)
 
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
         needed = self.scope.needed[self.wall_types.index(wall)]
-        fitted = fit_plain(temperature[:, needed], self.reflectances, degree)
+        fitted = fit_plain(temperature[:, needed], self.reflectances, degree, knot=self.settings.knot)
         coefficients = np.full((*temperature.shape[:2], degree + 1), np.nan)
         coefficients[:, needed] = fitted.coefficients
         return replace(fitted, coefficients=coefficients)
@@ -160,21 +184,42 @@ def _prepare(
     """What all wall types of a bake share, over a ground plane of temperature `soil` (t,) [K]."""
     record, lit = kept_samples(environment, settings), wants_lobes(settings, scope, plan)
     sources = lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan) if lit else None
+    angle = np.radians(environment.wind_direction[record])
+    towards = np.stack([np.sin(angle), np.cos(angle)], axis=1)
     return _Bake(
         environment=environment,
         exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
+        smooth=_smooth_film(environment, scope.solved, settings.convection),
         settings=settings,
         plan=plan,
         scope=scope,
         wall_types=tuple(wall_types),
         record=record,
         sources=sources,
-        facing=None if sources is None else facing_lobes(sources, scope.solved),
+        towards=towards,
+        frame=None
+        if sources is None
+        else fit_frame(
+            settings,
+            scope.reflectances,
+            facing_lobes(sources, scope.solved),
+            air=environment.air_temperature[record],
+            towards=towards,
+            clock=sources.clock,
+        ),
     )
 
 
-def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
-    """Solve what the wall types are made of, and fit them."""
+def _smooth_film(environment: Environment, normal: FloatArray, correlation: str) -> FloatArray | None:
+    """Forced film (t, o) of very smooth surfaces, where that of all others is only so many times as much."""
+    if correlation not in MOWITT:
+        return None
+    wind = environment.wind_speed, environment.wind_direction
+    return forced_film(normal, *wind, "very_smooth", correlation=correlation)
+
+
+def _bake_walls(bake: _Bake, progress: Progress | None) -> tuple[list[FittedWall], tuple[LeadIn, ...]]:
+    """Solve what the wall types are made of, and fit them; tells their lead-ins too."""
     wall_types = bake.wall_types
     plain = list(dict.fromkeys(part for wall in wall_types for part in plain_walls(wall)))
     solved: dict[WallType, _Solved] = {}
@@ -184,13 +229,14 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> list[FittedWall]:
             solved[wall] = tasks[wall].result()
             if progress is not None:
                 progress(wall.name, len(solved), len(plain))
-        return list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
+        rows = list(pool.map(lambda wall: bake.fit(wall, solved), wall_types))
+    return rows, tuple(longest([solved[part].lead_in for part in plain_walls(wall)]) for wall in wall_types)
 
 
-def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray) -> FloatArray:
+def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray, knot: float) -> FloatArray:
     """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
-    powers = np.vander(asked, reflectances.size, increasing=True)
-    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1) @ powers.T)
+    powers = reflectance_powers(asked, reflectances.size, knot)
+    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1, knot=knot) @ powers.T)
 
 
 def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dtype[np.floating]) -> Lobes | None:
@@ -212,7 +258,8 @@ def unbaked_tables(environment: Environment, wall_types: Sequence[WallType], set
         coefficients=np.full((2, len(wall_types), orientations.normal.shape[0], 1), np.nan, dtype=np.float32),
         ground_temperature=np.full(2, np.nan),
         level=np.full((2, len(wall_types)), np.nan),
-        bend=np.zeros((2, len(wall_types))),
+        loss=np.broadcast_to(UNBENT, (2, len(wall_types), COLUMNS)),
+        towards=np.zeros((2, 2)),
         lobes=None,
         settings=settings,
         lead_in=(),

@@ -29,7 +29,7 @@ from sensorsim.thermal.lead_in import lead_in_of
 CACHE_VARIABLE = "SENSORSIM_CACHE"
 KEPT = 64  # files; the ones not used for longest go first
 _SEEN_ONLY = ("visibility", "aerosol")  # bear on what a sensor sees, not on how warm a wall is
-_ARRAYS = ("time_of_day", "coefficients", "level", "bend", "ground_temperature")
+_ARRAYS = ("time_of_day", "coefficients", "level", "loss", "towards", "ground_temperature")
 _LOBES = ("sun", "direction", "weight", "gain")
 _CODE = ("constants.py", "effects", "environment", "materials", "thermal", "tables")
 

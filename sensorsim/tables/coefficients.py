@@ -6,6 +6,7 @@ reflectances determine it. The fit is least squares, so it may also have fewer p
 
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from sensorsim.thermal.lead_in import LeadIn
 # Products of a matrix product that OpenBLAS leaves to the thread that asks. From twice as many on it shares the work
 # with threads that then wait for more for many milliseconds, at full load, on processors that a frame needs.
 ALONE = 2**17
+UNKNOTTED = 3  # powers that are those of the reflectance itself
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -30,8 +32,10 @@ class Moment:
     """The tables of one moment, at the orientations that are looked up."""
 
     coefficients: FloatArray  # (w, o, p) of the powers of reflectance [K] above `level`
-    level: FloatArray  # (w,) [K]; 0 without lobes
-    bend: FloatArray  # (w,) [K-1], see `straighten`
+    level: FloatArray  # (w,) that they are above [K]; 0 without lobes
+    loss: FloatArray  # (w, 5) by which values are bent back, see `straighten`
+    towards: FloatArray  # (2,) where the wind comes from, east and north
+    knot: float  # reflectance at which the last power begins
     direction: FloatArray  # (l, 3) of the lobes
     weight: FloatArray  # (w, l, 2) of the lobes, powers 0 and 1 of the reflectance [K]
     gain: FloatArray  # (w, 5) of the lobes by where a surface faces, see `lobe_gain`
@@ -46,8 +50,9 @@ class ShadeTables:
     wall_types: tuple[WallType, ...]
     orientations: OrientationSet  # that are looked up: the solved ones, or the dense ones that a spline leads to
     coefficients: NDArray[np.floating[Any]]  # (t, w, o, p) of the powers of reflectance, solved, above `level` [K]
-    level: FloatArray  # (t, w) [K]
-    bend: FloatArray  # (t, w) [K-1]; 0 without lobes
+    level: FloatArray  # (t, w) [K]: of the air, without lobes of the coldest
+    loss: FloatArray  # (t, w, 5) by which values are bent back, see `straighten`
+    towards: FloatArray  # (t, 2) where the wind comes from, east and north
     lobes: Lobes | None  # of the sun; None: the coefficients hold it too
     ground_temperature: FloatArray  # (t,) of the ground plane [K]
     settings: BakeSettings
@@ -57,17 +62,18 @@ class ShadeTables:
         """The tables at a time [s]: straight between slices, the sun of the moment where it stands."""
         index, share = self.slice_of(time_of_day)
         coefficients = self._between(self.coefficients, index, share)
-        level, bend = self._between(self.level, index, share), self._between(self.bend, index, share)
+        level, loss = self._between(self.level, index, share), self._between(self.loss, index, share)
         if self.lobes is None:
             coefficients[..., 0] += level[:, None]
-            level = np.zeros_like(level)
+            level, loss = np.zeros_like(level), np.zeros_like(loss)
+            loss[:, 0] = 1.0
         direction, weight, gain = np.zeros((0, 3)), np.zeros((level.size, 0, 2)), np.zeros((level.size, 5))
         if self.lobes is not None:
             direction, weight = self.lobes.at(index, share)
             gain = self.lobes.gain_at(index, share)
         return Moment(
-            coefficients=self._spread(coefficients), level=level, bend=bend, direction=direction, weight=weight,
-            gain=gain,
+            coefficients=self._spread(coefficients), level=level, loss=loss, direction=direction, weight=weight,
+            gain=gain, towards=self._between(self.towards, index, share), knot=self.settings.knot,
         )  # fmt: skip
 
     def _spread(self, coefficients: FloatArray) -> FloatArray:
@@ -106,7 +112,23 @@ def lookup_orientations(settings: BakeSettings) -> OrientationSet:
     return replace(orientation_set(settings.orientations), scheme=settings.interpolation)
 
 
-def fit_polynomials(temperature: FloatArray, reflectances: FloatArray, degree: int) -> FloatArray:
+def reflectance_powers(reflectance: FloatArray, count: int, knot: float) -> FloatArray:
+    """Powers (m, count) of reflectances (m,), lowest first; of four or more the last one begins at the knot.
+
+    A light face may pass the temperature of its air, and then its free film turns over: what a cubic misses lies there.
+    """
+    powers = np.asarray(np.vander(reflectance, count, increasing=True), dtype=np.float64)
+    if count > UNKNOTTED:
+        powers[:, -1] = np.maximum(reflectance - knot, 0.0) ** (count - 1)
+    return powers
+
+
+def fit_polynomials(temperature: FloatArray, reflectances: FloatArray, degree: int, *, knot: float = 0.0) -> FloatArray:
     """Coefficients (..., degree + 1) [K] of temperatures (..., r) [K] at reflectances (r,), by least squares."""
-    powers = np.vander(reflectances, degree + 1, increasing=True)
-    return np.asarray(temperature @ np.linalg.pinv(powers).T)
+    return np.asarray(temperature @ least_squares(tuple(reflectances.tolist()), degree, knot).T)
+
+
+@lru_cache(maxsize=64)
+def least_squares(reflectances: tuple[float, ...], degree: int, knot: float = 0.0) -> FloatArray:
+    """From values at reflectances (r,) to the coefficients of the closest polynomial (degree + 1, r)."""
+    return np.asarray(np.linalg.pinv(reflectance_powers(np.asarray(reflectances), degree + 1, knot)))

@@ -1,7 +1,7 @@
 """Temperature histories: of a wall type for many orientations and absorptances, and of surfaces one by one."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,51 +13,51 @@ from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
 from sensorsim.thermal.heat_balance import Exposure
-from sensorsim.thermal.interior import build_interior
-from sensorsim.thermal.lead_in import LeadIn, lead_in_of
+from sensorsim.thermal.lead_in import LeadIn, lead_in_of, room_of
 from sensorsim.thermal.natural import cool_skin, melting_depth, surface_boundary
-from sensorsim.thermal.paths import march_paths
+from sensorsim.thermal.paths import GridPath, march_paths, wall_paths
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Ready:
+    """A plain wall type made ready for its march in an environment."""
+
+    wall: WallType
+    paths: tuple[GridPath, ...]
+    inside: Inside
+    lead_in: LeadIn
+
+
+def make_ready(
+    environment: Environment, wall: WallType, *, own_lead_in: bool, cell_size: float = 1.0,
+    plan: EffectPlan = EVERYTHING,
+) -> Ready:  # fmt: skip
+    """Lay out a plain wall type. Its lead-in is told by usual cells and a room that counts, whatever is marched."""
+    paths, inside = wall_paths(wall, environment.step, cell_size=cell_size), room_of(wall, environment, plan)
+    lead_in = lead_in_of(
+        wall, environment, own=own_lead_in, paths=paths if cell_size == 1.0 else None,
+        inside=inside if plan.has("interior") else None,
+    )  # fmt: skip
+    return Ready(wall=wall, paths=paths, inside=inside, lead_in=lead_in)
 
 
 def wall_history(
-    environment: Environment,
-    outside: Outside,
-    wall: WallType,
-    absorptances: FloatArray,
-    record: np.ndarray,
-    *,
-    lead_in: LeadIn,
-    cell_size: float = 1.0,
-    plan: EffectPlan = EVERYTHING,
+    environment: Environment, outside: Outside, ready: Ready, absorptances: FloatArray, record: np.ndarray, *,
     stride: int = 1,
-) -> FloatArray:
+) -> FloatArray:  # fmt: skip
     """Surface temperature (r, o, a) [K] of a plain wall type at the samples `record`, none before its lead-in."""
-    inside = inside_of(environment, wall, plan)
+    wall, lead_in = ready.wall, ready.lead_in
     water = wall.cover is not None and wall.cover.kind == "water"
     # Water remembers weeks; it starts from the mean of the air that it has mixed in.
     start = float(np.mean(environment.air_temperature)) if water else None
     history = march_paths(
-        wall, outside_from(outside, lead_in.first), inside_from(inside, lead_in.first), absorptances,
+        wall, outside_from(outside, lead_in.first), inside_from(ready.inside, lead_in.first), absorptances,
         step=environment.step, record=record - lead_in.first, start=start, melting_depth=melting_depth(wall),
-        repeated=lead_in.repeated, cell_size=cell_size, stride=stride,
+        repeated=lead_in.repeated, paths=ready.paths, stride=stride,
     )  # fmt: skip
     if water and wall.cover is not None:
         return cool_skin(history.exterior, outside, record, wall.cover)
     return history.exterior
-
-
-def inside_of(environment: Environment, wall: WallType, plan: EffectPlan = EVERYTHING) -> Inside:
-    """What acts on the interior face of a wall type in this weather."""
-    return build_interior(
-        wall.interior,
-        environment.air_temperature,
-        environment.wind_speed,
-        environment.step,
-        wall.interior_emissivity,
-        room=wall.room,
-        heat_gain=wall.heat_gain,
-        plan=plan,
-    )
 
 
 def solve_histories(
@@ -75,11 +75,9 @@ def solve_histories(
         ]
         return mix_temperatures(wall, parts)
     outside = surface_boundary(environment, exposure, wall, correlation=settings.convection, plan=plan)
-    lead_in = lead_in_of(wall, environment, own=settings.lead_in_days is None)
-    return wall_history(
-        environment, outside, wall, 1.0 - reflectances, record, lead_in=lead_in, cell_size=settings.cell_size,
-        stride=settings.lead_in_stride, plan=plan,
-    )  # fmt: skip
+    own = settings.lead_in_days is None
+    ready = make_ready(environment, wall, own_lead_in=own, cell_size=settings.cell_size, plan=plan)
+    return wall_history(environment, outside, ready, 1.0 - reflectances, record, stride=settings.lead_in_stride)
 
 
 def surface_histories(
@@ -119,8 +117,9 @@ def _surfaces_of(
     outside = outside._replace(irradiance=outside.irradiance * (1.0 - reflectance))
     count, stride = environment.time.size, round(settings.slice_interval / environment.step)
     kept = np.union1d(np.arange(environment.image_window.start % stride, count, stride), [0, count - 1])
-    whole = replace(lead_in_of(wall, environment, own=settings.lead_in_days is None), first=0)
-    history = wall_history(environment, outside, wall, np.ones(1), kept, lead_in=whole, plan=plan)[:, :, 0]
+    ready = make_ready(environment, wall, own_lead_in=settings.lead_in_days is None, plan=plan)
+    whole = replace(ready, lead_in=replace(ready.lead_in, first=0))
+    history = wall_history(environment, outside, whole, np.ones(1), kept)[:, :, 0]
     later = np.clip(np.searchsorted(kept, np.arange(count)), 1, kept.size - 1)
     share = (np.arange(count) - kept[later - 1]) / (kept[later] - kept[later - 1])
     return np.asarray(history[later - 1] + share[:, None] * (history[later] - history[later - 1]))

@@ -129,35 +129,35 @@ def lobe_weights(sources: LobeSources, response: FloatArray) -> FloatArray:
     """Weights (t, k + 1) [K] of a black surface from its response (t, m) to the sources' light."""
     position, count = sources.clock / sources.interval, sources.node.size
     begun = sources.node[sources.node < round(SECONDS_PER_DAY / sources.interval)]
-    whole, late = response[:, : begun.size], response[:, begun.size : 2 * begun.size]
-    gone = np.clip(position[:, None] - begun, 0.0, 1.0)  # share of the interval that is over
+    answer = np.ascontiguousarray(response.T)  # by sources: whole rows are handed on
+    whole, late = answer[: begun.size], answer[begun.size : 2 * begun.size]
+    gone = np.clip(position - begun[:, None], 0.0, 1.0)  # share of the interval that is over
     late = np.where(gone > 0.0, late / np.maximum(gone, 1e-9), 0.0)
-    weight = np.zeros((position.size, count + 1))
-    weight[:, 1 : begun.size + 1] = whole - late
-    weight[:, 1:] += response[:, 2 * begun.size :]
+    weight = np.zeros((count + 1, position.size))
+    weight[1 : begun.size + 1] = whole - late
+    weight[1:] += answer[2 * begun.size :]
     current = (gone > 0.0) & (gone < 1.0)
-    weight[:, 0] = np.sum(late * current, axis=1)
-    following = np.searchsorted(sources.node, begun + 1)
-    for column, after in enumerate(following):
-        known = after < count and sources.node[after] == begun[column] + 1
-        weight[:, after + 1 if known else column + 1] += np.where(current[:, column], 0.0, late[:, column])
-    _coarsen(weight[:, 1:], sources.node, position)
+    weight[0] = np.sum(late * current, axis=0)
+    late[current] = 0.0
+    after = np.searchsorted(sources.node, begun + 1)
+    known = sources.node[np.minimum(after, count - 1)] == begun + 1
+    weight[after[known] + 1] += late[known]
+    weight[np.flatnonzero(~known) + 1] += late[~known]
+    _coarsen(weight[1:], sources.node, position)
     weight[np.abs(weight) < LEAST_WEIGHT] = 0.0
-    return weight
+    return np.ascontiguousarray(weight.T)
 
 
 def _coarsen(weight: FloatArray, node: IntArray, position: FloatArray) -> None:
-    """Hand what old nodes hold to coarser ones on both sides, in place, where both are lit."""
-    place = {int(value): column for column, value in enumerate(node)}
+    """Hand what old nodes hold (k, t) to coarser ones on both sides, in place, where both are lit."""
     for age, stride in COARSER:
-        for value, column in place.items():
-            if value % stride == 0 or value % (stride // 2):
-                continue
-            around = (place.get(value - stride // 2), place.get(value + stride // 2))
-            if around[0] is None or around[1] is None:
-                continue
-            old = ((position - value) >= age) | (position < value)
-            moved = np.where(old, 0.5 * weight[:, column], 0.0)
-            weight[:, around[0]] += moved
-            weight[:, around[1]] += moved
-            weight[:, column] -= 2.0 * moved
+        half = stride // 2
+        finer = node[node % stride == half]
+        place = np.searchsorted(node, finer + np.array([[-half], [0], [half]]))
+        between = np.all(node[np.minimum(place, node.size - 1)][[0, 2]] - finer == [[-half], [half]], axis=0)
+        before, own, after = place[:, between]
+        since = position - finer[between, None]
+        moved = np.where((since >= age) | (since < 0.0), 0.5 * weight[own], 0.0)
+        weight[after] += moved
+        weight[before] += moved
+        weight[own] -= 2.0 * moved

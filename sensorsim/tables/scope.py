@@ -38,6 +38,8 @@ class Scope:
 
     def of_part(self, wall_types: Sequence[WallType], part: WallType) -> NDArray[np.bool_]:
         """Orientations (o,) of a wall type that is solved, for itself and for mixtures that hold it."""
+        if np.all(self.needed):
+            return np.ones(self.needed.shape[1], dtype=np.bool_)
         rows = [row for row, wall in enumerate(wall_types) if part in plain_walls(wall)]
         return np.asarray(np.any(self.needed[rows], axis=0))
 

@@ -6,10 +6,10 @@ the polynomial at the surface's reflectance. Tables with lobes add the sun's, ea
 
 import numpy as np
 
-from sensorsim.tables.coefficients import Moment, ShadeTables
+from sensorsim.tables.coefficients import Moment, ShadeTables, reflectance_powers
 from sensorsim.tables.lobes import gain_terms
 from sensorsim.tables.orientations import FloatArray, IntArray
-from sensorsim.tables.straighten import bend_back
+from sensorsim.tables.straighten import bend_back, tilt_terms, wind_share
 
 
 def surface_temperature(
@@ -46,13 +46,11 @@ def shade(
     seen = facing if visibility is None else visibility * facing
     rise, gain = moment.weight[wall_type], np.sum(moment.gain[wall_type] * gain_terms(normal), axis=1)
     sun = gain * np.sum(seen * (rise[..., 0] + rise[..., 1] * reflectance[:, None]), axis=1)
-    value = evaluate_polynomial(coefficient, reflectance) + sun
-    return bend_back(value, moment.level[wall_type], moment.bend[wall_type])
+    value = evaluate_polynomial(coefficient, reflectance, knot=moment.knot) + sun
+    terms = (wind_share(normal, moment.towards[None])[0], *tilt_terms(normal))
+    return bend_back(value, moment.level[wall_type], moment.loss[wall_type], terms)
 
 
-def evaluate_polynomial(coefficient: FloatArray, argument: FloatArray) -> FloatArray:
-    """Value (m,) of polynomials with coefficients (m, p), lowest power first."""
-    value = coefficient[:, -1]
-    for power in range(coefficient.shape[1] - 2, -1, -1):
-        value = value * argument + coefficient[:, power]
-    return np.asarray(value)
+def evaluate_polynomial(coefficient: FloatArray, argument: FloatArray, *, knot: float = 0.0) -> FloatArray:
+    """Value (m,) of polynomials with coefficients (m, p), lowest power first, the last one from the knot on."""
+    return np.asarray(np.sum(coefficient * reflectance_powers(argument, coefficient.shape[1], knot), axis=1))

@@ -2,28 +2,23 @@
 
 import numpy as np
 
-from sensorsim.effects import EVERYTHING, EffectPlan
-from sensorsim.environment import Environment
-from sensorsim.materials import WallType
-from sensorsim.tables.history import inside_of
+from sensorsim.tables.history import Ready
 from sensorsim.tables.orientations import FloatArray, IntArray
-from sensorsim.tables.settings import BakeSettings
 from sensorsim.thermal.boundary import Outside
 from sensorsim.thermal.linear_response import exterior_slope, interior_slope, linear_response
 from sensorsim.thermal.natural import AERODYNAMIC
-from sensorsim.thermal.paths import wall_paths
 
 
 def sun_response(
-    environment: Environment, outside: Outside, wall: WallType, temperature: FloatArray, record: IntArray, *,
-    light: FloatArray, first: int, settings: BakeSettings, plan: EffectPlan = EVERYTHING,
+    ready: Ready, outside: Outside, temperature: FloatArray, record: IntArray, *, light: FloatArray, first: int,
+    step: float,
 ) -> FloatArray:  # fmt: skip
     """Rise (t, m) [K] of a plain wall type, black to the sun, by light (s, m) [W m-2] from sample `first` on.
 
     Linear about its course (t, o) [K] at the samples `record` (t,) under what acts `outside`, meant over all
     orientations; before the first of them as at the same clock time later.
     """
-    cover = wall.cover
+    cover = ready.wall.cover
     at_record = outside._replace(
         film=outside.film[record], air=outside.air[record],
         latent=outside.latent[record] if outside.latent.shape[0] > 1 else outside.latent,
@@ -32,10 +27,9 @@ def sun_response(
     clock = (np.arange(first, record[-1] + 1) - record[0]) % max(int(record[-1] - record[0]), 1)
     slope = np.interp(clock, record - record[0], course)
     share = cover.interception if cover is not None and cover.kind in AERODYNAMIC else 1.0
-    inside, rise = inside_of(environment, wall, plan), np.zeros((record.size, light.shape[1]))
-    for path in wall_paths(wall, environment.step, cell_size=settings.cell_size):
-        inner = interior_slope(inside, path.grid.interior_area)
-        rise += path.fraction * linear_response(
-            path.grid, share * light, slope, inner, step=environment.step, record=record - first
-        )
+    rise = np.zeros((record.size, light.shape[1]))
+    for path in ready.paths:
+        inner = interior_slope(ready.inside, path.grid.interior_area)
+        answer = linear_response(path.grid, light, slope, inner, step=step, record=record - first)
+        rise += path.fraction * share * answer
     return rise

@@ -65,13 +65,11 @@ def per_exterior_area(inside: Inside, area: float) -> Inside:
 
 def outside_from(outside: Outside, first: int, stride: int = 1) -> Outside:
     """What acts on the exterior face from a sample on, of every `stride`-th one."""
+    names = ["irradiance", "longwave", "film", "air"]
+    names += ["vapour"] if outside.vapour.size else []
+    names += ["latent"] if len(outside.latent) == len(outside.air) else []
     chosen = slice(first, None, stride)
-    series = {name: getattr(outside, name)[chosen] for name in ("irradiance", "longwave", "film", "air")}
-    if outside.vapour.size:
-        series["vapour"] = outside.vapour[chosen]
-    if len(outside.latent) == len(outside.air):
-        series["latent"] = outside.latent[chosen]
-    return outside._replace(**series)
+    return outside._replace(**{name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names})
 
 
 def inside_from(inside: Inside, first: int, stride: int = 1) -> Inside:

@@ -2,8 +2,12 @@
 
 The march is linearised about a course of the face's temperature: both films and the long-wave exchange become one
 slope for each face, which changes with time at the exterior. Steps are those of `kernel`, two-stage SDIRK
-[Alexander1977] with inputs linear between samples, so that the answer lags as the march's own does.
+[Alexander1977] with inputs linear between samples, so that the answer lags as the march's own does; so are the cells'
+passes and the lanes, one for each source of heat (see `passes` and `lanes`), but the room is as it was: only one face
+is left to be solved, and its balance is linear.
 """
+
+from dataclasses import replace
 
 import numpy as np
 from numba import njit
@@ -11,13 +15,17 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
 from sensorsim.environment import saturation_vapour_pressure
-from sensorsim.thermal.boundary import Inside, Outside, per_exterior_area
+from sensorsim.thermal.boundary import Cells, Inside, Outside, per_exterior_area
+from sensorsim.thermal.conduction import factor
+from sensorsim.thermal.damping import CARRY, GAMMA
 from sensorsim.thermal.grid import FloatArray, WallGrid
+from sensorsim.thermal.lanes import LANES, ROW, Index, inner, room_for, wide
 
-GAMMA = 1.0 - np.sqrt(0.5)
-CARRY = (1.0 - GAMMA) / GAMMA  # weight of the first stage's change in the second stage's right side
 INNER_DIFFERENCE = 3.0  # [K] between the interior face and its air, at which its free film is taken
 LEAST_SLOPE = 1e-3  # [W m-2 K-1] in perfectly still air between black bodies of 0 K
+# The face, what the cells send to it, the cell before; heat at the step's two samples.
+FACE, LEFT, BEFORE, EARLY, LATE, ALL = ROW[0:6]
+NOW, WORK, CELL = ROW[0:3]
 
 
 def exterior_slope(outside: Outside, temperature: FloatArray) -> FloatArray:
@@ -49,62 +57,110 @@ def linear_response(
 
     slope: of the exterior face (t,), inner: of the interior face [W m-2 K-1]; samples are `step` [s] apart.
     """
-    n = grid.capacity.size
-    conductance = grid.conductance
-    if n == 0:
-        through = conductance[0] * inner / (conductance[0] + inner)
-        return np.asarray(source[record] / (slope[record, None] + through))
-    rate = grid.capacity / (GAMMA * step)
-    pivot = np.zeros(n)
-    drain = conductance[n] * inner / (conductance[n] + inner)
-    for i in range(n - 1, 0, -1):  # from the inside out: only the outermost cell's own pivot changes with time
-        pivot[i] = 1.0 / (rate[i] + conductance[i] + drain)
-        drain = conductance[i] * (1.0 - conductance[i] * pivot[i])
-    first = np.where(np.any(source != 0.0, axis=0), np.argmax(source != 0.0, axis=0), source.shape[0])
-    order = np.argsort(first, kind="stable")
-    plain = np.ascontiguousarray(source[:, order], dtype=np.float64)
+    conductance = grid.conductance.copy()
+    conductance[-1] *= inner / max(conductance[-1] + inner, 1e-300)  # both are 0 at the centre of a solid
+    if grid.capacity.size == 0:
+        return np.asarray(source[record] / (slope[record, None] + conductance[0]))
+    cells = factor(replace(grid, conductance=conductance), GAMMA * step, step)
+    place = np.arange(1, grid.capacity.size + 2, dtype=Index) * CELL  # before and beyond them an idle cell
+    w, c = room_for(int(ALL)), room_for((place.size + 1) * int(CELL))
     rise = np.zeros((record.size, source.shape[1]))
-    slopes = np.ascontiguousarray(slope)
-    rise[:, order] = _march(rate, conductance, pivot, drain, plain, first[order], slopes, record)
+    plain, slopes = np.ascontiguousarray(source, dtype=np.float64), np.ascontiguousarray(slope)
+    _march(Index(LANES), w, c, place, cells, plain, slopes, record, rise)
     return rise
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _march(
-    rate: FloatArray, conductance: FloatArray, pivot: FloatArray, drain: float, source: FloatArray,
-    first: NDArray[np.int64], slope: FloatArray, record: NDArray[np.int64],
-) -> FloatArray:  # fmt: skip
-    """All steps to the last sample of `record`, which ascends; starts without any rise.
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], cells: Cells, source: FloatArray,
+    slope: FloatArray, record: NDArray[np.int64], rise: FloatArray,
+) -> None:  # fmt: skip
+    """All steps to the last sample of `record`, which ascends, from no rise at all, block by block of sources."""
+    _all(lanes, w, c, place, cells, source, slope, record, rise)
 
-    Sources ascend by the sample that each is first felt at: before that they are passed over.
-    """
-    n, shape = rate.size, (rate.size, source.shape[1])
-    now, star, cells, face = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape[1])
-    rise, row = np.zeros((record.size, shape[1])), int(record[0] == 0)
-    for k in range(record[-1]):
-        m = np.searchsorted(first, k + 1, side="right")  # of the sources that have begun
-        for stage in range(2):
-            at = GAMMA if stage == 0 else 1.0
-            loss = (1.0 - at) * slope[k] + at * slope[k + 1]
-            for i in range(n):
-                for j in range(m):
-                    star[i, j] = now[i, j] if stage == 0 else now[i, j] + CARRY * (cells[i, j] - now[i, j])
-                    star[i, j] *= rate[i]
-            for i in range(n - 1, 0, -1):
-                carried = conductance[i] * pivot[i]
-                for j in range(m):
-                    star[i - 1, j] += carried * star[i, j]
-            share = conductance[0] / (conductance[0] + loss)  # of what the face takes up that goes into the wall
-            outer = 1.0 / (rate[0] + drain + share * loss)
-            for j in range(m):
-                heat = (1.0 - at) * source[k, j] + at * source[k + 1, j]
-                cells[0, j] = (star[0, j] + share * heat) * outer
-                face[j] = (heat + conductance[0] * cells[0, j]) / (conductance[0] + loss)
-            for i in range(1, n):
-                for j in range(m):
-                    cells[i, j] = (star[i, j] + conductance[i] * cells[i - 1, j]) * pivot[i]
-        now[:, :m] = cells[:, :m]
-        if record[row] == k + 1:
-            rise[row] = face
+
+@inner
+def _all(
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], cells: Cells, source: FloatArray,
+    slope: FloatArray, record: NDArray[np.int64], rise: FloatArray,
+) -> None:  # fmt: skip
+    """Blocks are passed over until the first of their sources begins."""
+    outward, inward, through, late_through = cells.outward, cells.inward, cells.exchange[0], cells.exchange[1]
+    for begin in range(0, source.shape[1], LANES):
+        count, row = min(lanes, Index(source.shape[1] - begin)), 0
+        first = _beginning(count, source, begin)
+        w[:], c[:] = 0.0, 0.0
+        while row < record.size and record[row] <= first:
             row += 1
-    return rise
+        _take(count, w, source[first], begin)
+        for k in range(first, record[-1]):
+            _take(count, w, source[k + 1], begin)
+            middle = (1.0 - GAMMA) * slope[k] + GAMMA * slope[k + 1]
+            _face(lanes, w, 1.0 / (middle + through[0]), GAMMA)
+            _turn(lanes, w, c, place, outward, inward)
+            _face(lanes, w, 1.0 / (slope[k + 1] + late_through[0]), 1.0)
+            _close(lanes, w, c, place, inward, outward, through[4])
+            if record[row] == k + 1:
+                for j in range(count):
+                    rise[row, begin + j] = w[FACE + j]
+                row += 1
+
+
+@inner
+def _beginning(count: Index, source: FloatArray, begin: int) -> int:
+    """Sample before the one at which the first of a block's sources is felt."""
+    for k in range(source.shape[0]):
+        for j in range(count):
+            if source[k, begin + j] != 0.0:
+                return max(k - 1, 0)
+    return source.shape[0]
+
+
+@inner
+def _take(count: Index, w: FloatArray, source: FloatArray, begin: int) -> None:
+    """The heat at a step's second sample is that at the next one's first."""
+    for j in range(count):
+        w[EARLY + j], w[LATE + j] = w[LATE + j], source[begin + j]
+
+
+@inner
+def _face(lanes: Index, w: FloatArray, per_loss: float, at: float) -> None:
+    """Solve the face at a fraction `at` of the step."""
+    wide()
+    for j in range(lanes):
+        w[FACE + j] = ((1.0 - at) * w[EARLY + j] + at * w[LATE + j] + w[LEFT + j]) * per_loss
+
+
+@inner
+def _turn(
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], ended: FloatArray, begun: FloatArray
+) -> None:
+    """Cells after the first stage, from the face inward, and the elimination of the second."""
+    wide()
+    for j in range(lanes):
+        w[BEFORE + j], w[LEFT + j] = w[FACE + j], 0.0
+    for i in range(ended.shape[0]):
+        at, own, link, sent, before = place[i], begun[i, 0], begun[i, 1], begun[i, 2], ended[i, 3]
+        for j in range(lanes):
+            now, first = c[at + NOW + j], c[at + WORK + j] + before * w[BEFORE + j]
+            star = now + CARRY * (first - now)
+            w[BEFORE + j] = first
+            w[LEFT + j] += sent * star
+            c[at + WORK + j] = own * (star + link * c[at - CELL + WORK + j])
+
+
+@inner
+def _close(
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], ended: FloatArray, begun: FloatArray,
+    outermost: float,
+) -> None:  # fmt: skip
+    """Cells after the second stage, from the inside outward, and the next step's elimination."""
+    wide()
+    for i in range(ended.shape[0] - 1, -1, -1):
+        at, own, link, before, face = place[i], begun[i, 0], begun[i, 1], ended[i, 3], ended[i, 4]
+        for j in range(lanes):
+            now = c[at + WORK + j] + before * c[at + CELL + NOW + j] + face * w[FACE + j]
+            c[at + NOW + j] = now
+            c[at + WORK + j] = own * (now + link * c[at + CELL + WORK + j])
+    for j in range(lanes):
+        w[LEFT + j] = outermost * c[CELL + WORK + j]

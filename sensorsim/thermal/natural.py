@@ -45,13 +45,16 @@ AERODYNAMIC = ("soil", "plants", "water", "snow")
 
 def surface_boundary(
     environment: Environment, exposure: Exposure, wall: WallType, *, correlation: str = "mowitt",
-    plan: EffectPlan = EVERYTHING,
+    plan: EffectPlan = EVERYTHING, smooth: FloatArray | None = None,
 ) -> Outside:  # fmt: skip
-    """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun."""
+    """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun.
+
+    `smooth` is that of `heat_balance.outside_of`.
+    """
     cover = wall.cover
     outside = outside_of(
         environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness, correlation=correlation,
-        length=wall.characteristic_length, plan=plan,
+        length=wall.characteristic_length, plan=plan, smooth=smooth,
     )  # fmt: skip
     if cover is not None and cover.kind in AERODYNAMIC:
         film, still = np.zeros(exposure.irradiance.shape), np.zeros_like(outside.free)
@@ -125,19 +128,27 @@ def _moisten(
     if plan.has("rain") and np.any(environment.precipitation > 0.0):
         caught = caught_rain(environment, exposure.normal)
         capacity = FILM_CAPACITY if cover is None else max(FILM_CAPACITY, LEAF_CAPACITY * cover.leaf_area_index)
-        drying = np.cbrt(film**3 + FREE_DIFFERENCE * outside.free)
+        drying = _with_free(film, outside)
         wet = wet_share(environment, exposure, caught, drying, capacity, pressure)
         outside = outside._replace(film=film + rain_film(caught))
     if wall.interior == "none" and (cover is None or cover.kind in ("soil", "road")):
         wet = np.where((environment.ground_state == "wet")[:, None], 1.0, wet)
-    film = np.cbrt(film**3 + FREE_DIFFERENCE * outside.free)
-    if not (plan.has("evaporation") and np.any(film > 0.0)):
+    always = cover is not None and cover.kind in AERODYNAMIC
+    if not (plan.has("evaporation") and (always or np.any(wet > 0.0))):
+        return outside
+    film = _with_free(film, outside)
+    if not np.any(film > 0.0):
         return outside
     share = _evaporating_share(environment, cover, exposure, film, wet)
     if not np.any(share > 0.0):
         return outside
     gamma = psychrometric_constant(environment.air_temperature, pressure)[:, None]
     return outside._replace(latent=share * film / gamma, vapour=environment.vapour_pressure)
+
+
+def _with_free(film: FloatArray, outside: Outside) -> FloatArray:
+    """Film (t, o) [W m-2 K-1] with the free one, as it is at FREE_DIFFERENCE from the air."""
+    return np.cbrt(film**3 + FREE_DIFFERENCE * outside.free) if np.any(outside.free) else film
 
 
 def _evaporating_share(

@@ -89,7 +89,7 @@ def march_paths(
     keep_nodes: bool = False,
     start: float | None = None,
     melting_depth: float = 0.0,
-    cell_size: float = 1.0,
+    paths: Sequence[GridPath] | None = None,
     repeated: bool = False,
     stride: int = 1,
 ) -> History:
@@ -98,9 +98,10 @@ def march_paths(
     With a temperature `start` [K] all cells of all paths begin there, `repeated` as the first day leaves them when it
     is repeated; `melting_depth` [m] is that of `march`. Before the first sample recorded, all but the last SHORT_STEPS
     are joined to steps `stride` times as long: heat that came hours ago has spread. Snow keeps its short steps.
-    Grid and node temperatures are those of the widest path; heats begin where steps are short.
+    Grid and node temperatures are those of the widest path; heats begin where steps are short. `paths` are for walls
+    laid out already, or in other cells than the usual.
     """
-    paths = wall_paths(wall, step, cell_size=cell_size)
+    paths = wall_paths(wall, step) if paths is None else paths
     histories, long = [], 1 if melting_depth > 0.0 else stride
     skipped = max(int(record[0]) - SHORT_STEPS, 0) // long * long if long > 1 else 0
     far, near = (outside_from(outside, 0, long), inside_from(inside, 0, long)), inside_from(inside, skipped)

@@ -6,6 +6,7 @@ two at most in the damp air of rain. Below freezing it falls as snow, which stay
 """
 
 import numpy as np
+from numba import njit
 
 from sensorsim.constants import SECONDS_PER_HOUR, STEFAN_BOLTZMANN_CONSTANT, ZERO_CELSIUS
 from sensorsim.environment import Environment
@@ -46,8 +47,15 @@ def wet_share(
     net = WET_ABSORPTANCE * exposure.irradiance + exposure.longwave - STEFAN_BOLTZMANN_CONSTANT * air**4
     heat = potential_evaporation(net, film, air, environment.vapour_pressure[:, None], pressure)
     dried = np.maximum(heat, 0.0) / latent_heat(air)
-    kept = np.zeros_like(caught)
-    for sample in range(1, len(kept)):
-        gained = step * (caught[sample - 1] - dried[sample - 1])
-        kept[sample] = np.clip(kept[sample - 1] + gained, 0.0, capacity)
+    kept = _filled(step * (caught - dried), capacity)
     return np.asarray((kept / capacity) ** WET_SHARE_POWER)
+
+
+@njit(cache=True, nogil=True)
+def _filled(gained: FloatArray, capacity: float) -> FloatArray:
+    """Water (t, o) that lies on surfaces which begin dry, never less than none nor more than `capacity`."""
+    kept = np.zeros(gained.shape)
+    for sample in range(1, len(kept)):
+        for column in range(gained.shape[1]):
+            kept[sample, column] = min(max(kept[sample - 1, column] + gained[sample - 1, column], 0.0), capacity)
+    return kept
