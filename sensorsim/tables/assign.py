@@ -66,7 +66,7 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue, season: Season = MILD)
 
 
 def _alike(scene: Scene) -> tuple[IntArray, IntArray]:
-    """Kinds of surfaces that differ in anything that is asked of them here: the first of each, and the kind of all (s,).
+    """Kinds of surfaces that differ in anything asked of them here: the first of each, and the kind of all (s,).
 
     Kinds ascend by their first surface, so that the first that cannot be resolved is the one that is told.
     """

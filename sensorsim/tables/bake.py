@@ -183,7 +183,9 @@ def _prepare(
     return _Bake(
         environment=environment,
         exposure=exposure,
-        smooth=None if settings.convection not in MOWITT else outside_of(
+        smooth=None
+        if settings.convection not in MOWITT
+        else outside_of(
             environment, exposure, emissivity=1.0, roughness="very_smooth", correlation=settings.convection, plan=plan
         ),
         settings=settings,
