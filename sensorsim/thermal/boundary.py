@@ -6,7 +6,7 @@ of the face temperatures. Its state is in degrees Celsius, so that a metal skin'
 multiplies the rounding errors of 20 and not of 300.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +69,17 @@ def outside_from(outside: Outside, first: int, stride: int = 1) -> Outside:
     names += ["vapour"] if outside.vapour.size else []
     names += ["latent"] if len(outside.latent) == len(outside.air) else []
     chosen = slice(first, None, stride)
-    return outside._replace(**{name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names})
+    series: dict[str, Any] = {name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names}
+    return outside._replace(**series)
+
+
+def outside_at(outside: Outside, chosen: NDArray[np.bool_]) -> Outside:
+    """What acts on the exterior faces of some of the orientations (o,)."""
+    names = ["irradiance", "longwave", "film"]
+    names += ["latent"] if outside.latent.shape[1] == chosen.size else []
+    series = {name: getattr(outside, name)[:, chosen] for name in names}
+    colder = outside.free_colder[chosen] if outside.free_colder.size else outside.free_colder
+    return outside._replace(free=outside.free[chosen], free_colder=colder, **series)
 
 
 def inside_from(inside: Inside, first: int, stride: int = 1) -> Inside:
