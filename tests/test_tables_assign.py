@@ -1,4 +1,5 @@
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -42,3 +43,29 @@ def test_unknown_material_is_told_with_the_file_the_feature_and_a_remedy(tmp_pat
     assert message.startswith(f"{path}, feature 7b: material code = 77: no such material in ")
     assert "use one of the" in message
     assert "\n" not in message
+
+
+def test_of_several_unknown_materials_the_first_in_the_file_is_told(tmp_path: Path) -> None:
+    bad = [feature(box(30.0 * k, 0.0, 5.0, 5.0), 5.0, number=f"9{k}", wall_word=f"77{k}0") for k in range(3)]
+    scene = load_scene(write_town(tmp_path, [*town_features(), *bad]), level="IIIB")
+    with pytest.raises(InputError, match="feature 90: material code = 77"):
+        assign_wall_types(scene, load_catalogue())
+
+
+def test_surfaces_of_one_word_differ_by_what_their_features_say(tmp_path: Path) -> None:
+    """Interior and heat gain make wall types of their own; surfaces alike in all share one, wherever they stand."""
+    told: list[dict[str, Any]] = [
+        {"interior": "unheated", "heat_gain": 0.0}, {"interior": "unheated", "heat_gain": 8.0},
+        {"interior": "heated"}, {"interior": "unheated", "heat_gain": 8.0},
+    ]  # fmt: skip
+    boxes = [
+        feature(box(30.0 * k, 0.0, 9.0, 9.0), 5.0, word="2040", number=str(k), **properties)
+        for k, properties in enumerate(told)
+    ]
+    scene = load_scene(write_town(tmp_path, boxes), level="IIIB")
+    assigned = assign_wall_types(scene, load_catalogue())
+    walls = [{assigned.wall_types[row] for row in assigned.wall_type[scene.surfaces.feature == k]} for k in range(4)]
+    assert [len(found) for found in walls] == [1, 1, 1, 1]
+    assert walls[1] == walls[3]
+    assert len(set.union(*walls)) == 3
+    assert [next(iter(found)).heat_gain for found in walls[:2]] == [0.0, 8.0]

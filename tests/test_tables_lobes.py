@@ -64,6 +64,17 @@ def test_late_sources_answer_as_they_would_alone_and_in_any_order() -> None:
     assert together[2, 3] > 0.0 == together[1, 3]
 
 
+def test_a_sheet_of_metal_forgets_wholly() -> None:
+    """Rises fade to nothing at all and not to numbers that processors take a hundred times as long for."""
+    sheet = build_grid(load_catalogue().wall_type(12, "unheated").layers, 300.0)
+    heat = np.zeros((400, 2))
+    heat[1, 0], heat[1:, 1] = 500.0, 500.0
+    rise = linear_response(sheet, heat, np.full(400, 20.0), 5.0, step=300.0, record=np.array([1, 2, 100, 399]))
+    assert rise[0, 0] == rise[0, 1] > rise[1, 0] > 0.0
+    np.testing.assert_array_equal(rise[2:, 0], 0.0)
+    assert rise[3, 1] == pytest.approx(500.0 / (20.0 + 1.0 / (float(np.sum(1.0 / sheet.conductance)) + 0.2)))
+
+
 def test_sources_of_the_lobes_are_all_the_light_of_the_sun_and_no_more() -> None:
     sources = lobe_sources(environment(), _record(), interval=1800.0, sky="perez")
     light = directional_irradiance(environment())[sources.first :]
@@ -112,7 +123,7 @@ def test_lobe_that_a_surface_did_not_see_leaves_it_colder_and_others_alone() -> 
 
 
 def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
-    """Winter daylight, random normals against their own full solve: 99 of 100 within 0.06 K, a twentieth of the plain."""
+    """Winter daylight, random normals against their full solve: 99 of 100 within 0.06 K, a twentieth of the plain."""
     hours = np.array([7.0, 8.0, 10.0, 12.5, 15.0, 16.5, 20.0]) * 3600.0
     surfaces = Surfaces(
         wall_types=wall_types(), normal=random_normals(80), reflectance=np.array([0.05, 0.5, 0.95]), time_of_day=hours

@@ -25,7 +25,8 @@ from sensorsim.thermal import (
     season_of,
     surface_boundary,
 )
-from sensorsim.thermal.heat_balance import Exposure
+from sensorsim.thermal.boundary import outside_at
+from sensorsim.thermal.heat_balance import Exposure, outside_of
 from sensorsim.thermal.natural import (
     aerodynamic_film,
     canopy_resistance,
@@ -310,3 +311,27 @@ def test_air_passes_below_the_bridges_of_the_hospital_scene() -> None:
         ]
         assert [feature.interior for feature in bridges] == ["open"]
         assert bridges[0].interior_note
+
+
+@pytest.mark.parametrize("correlation", ["mowitt", "mowitt_local"])
+def test_all_wall_types_share_what_acts_on_smooth_buildings(
+    catalogue: Catalogue, weather: dict[str, Environment], correlation: str
+) -> None:
+    """By these correlations a rough wall's film is so many times a smooth one's, dry or wet, and on any ground."""
+    environment = replace(weather["fall"], precipitation=np.where(np.arange(weather["fall"].time.size) < 50, 2.0, 0.0))
+    normal = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -0.6, 0.8]])
+    exposure = expose(environment, normal, environment.air_temperature)
+    smooth = outside_of(environment, exposure, emissivity=1.0, roughness="very_smooth", correlation=correlation)
+    for code in (12, 20, 25, 91, 92, 94, 96, 98, 99):
+        wall = catalogue.wall_type(code, "none")
+        own = surface_boundary(environment, exposure, wall, correlation=correlation)
+        shared = surface_boundary(environment, exposure, wall, correlation=correlation, smooth=smooth)
+        for mine, its in zip(own, shared, strict=True):
+            np.testing.assert_allclose(mine, its, rtol=1e-13, atol=1e-300)
+        chosen = np.array([True, False, True])
+        part = Exposure(
+            normal=normal[chosen], irradiance=exposure.irradiance[:, chosen], longwave=exposure.longwave[:, chosen]
+        )
+        some = surface_boundary(environment, part, wall, correlation=correlation, smooth=outside_at(smooth, chosen))
+        for mine, its in zip(outside_at(shared, chosen), some, strict=True):
+            np.testing.assert_allclose(mine, its, rtol=1e-13, atol=1e-300)

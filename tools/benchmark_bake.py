@@ -90,9 +90,9 @@ def _first(name: str, weather: str) -> dict:
 
 
 def _table(found: dict) -> str:
+    bake = f"{found['preset']}, {found['weather']}: {found['walls']} wall types on {found['threads']} threads"
     lines = [
-        f"{found['preset']}, {found['weather']}: {found['walls']} wall types on {found['threads']} threads, "
-        f"{found['table_mib']:.1f} MiB; load {found['load']:.1f}",
+        f"{bake}, {found['table_mib']:.1f} MiB; load {found['load']:.1f}",
         f"{'':20} {'elapsed s':>10} {'processor s':>12}",
         f"{'bake':20} {found['elapsed_s']:10.2f} {found['processor_s']:12.2f}",
     ]

@@ -45,24 +45,40 @@ def assign_wall_types(scene: Scene, catalogue: Catalogue, season: Season = MILD)
     """
     scene = resolve_classes(scene, catalogue)
     rows: dict[WallType, int] = {}
-    count = scene.surfaces.word.size
-    wall_type = np.zeros(count, dtype=np.int64)
-    reflectance, transmittance, nir, emissivity = np.zeros((4, count))
-    for row in range(count):
+    first, alike = _alike(scene)
+    wall_type = np.zeros(first.size, dtype=np.int64)
+    reflectance, transmittance, nir, emissivity = np.zeros((4, first.size))
+    for kind, row in enumerate(first):
         word, _ = resolve_surface_word(scene, catalogue, row)
         covered = season.snow and scene.surfaces.role[row] == "plane" and _takes_snow(catalogue, word.code)
         word = _snow_word(catalogue) if covered else word
         section = None if covered else _section(scene, catalogue, row)
         wall = _wall_type(scene, catalogue, row, word.code, section=section, leafless=season.leafless)
-        wall_type[row] = rows.setdefault(wall, len(rows))
-        reflectance[row] = min(word.reflectance + catalogue.material(word.code).solar_transmittance.value, 1.0)
-        transmittance[row] = reflectance[row] - word.reflectance
-        nir[row] = _nir_reflectance(catalogue, wall, word.reflectance, leafless=season.leafless)
-        emissivity[row] = wall.emissivity
+        wall_type[kind] = rows.setdefault(wall, len(rows))
+        reflectance[kind] = min(word.reflectance + catalogue.material(word.code).solar_transmittance.value, 1.0)
+        transmittance[kind] = reflectance[kind] - word.reflectance
+        nir[kind] = _nir_reflectance(catalogue, wall, word.reflectance, leafless=season.leafless)
+        emissivity[kind] = wall.emissivity
     return Assignment(
-        wall_types=tuple(rows), wall_type=wall_type, reflectance=reflectance, transmittance=transmittance,
-        nir_reflectance=nir, emissivity=emissivity,
+        wall_types=tuple(rows), wall_type=wall_type[alike], reflectance=reflectance[alike],
+        transmittance=transmittance[alike], nir_reflectance=nir[alike], emissivity=emissivity[alike],
     )  # fmt: skip
+
+
+def _alike(scene: Scene) -> tuple[IntArray, IntArray]:
+    """Kinds of surfaces that differ in anything asked of them here: the first of each, and the kind of all (s,).
+
+    Kinds ascend by their first surface, so that the first that cannot be resolved is the one that is told.
+    """
+    surfaces = scene.surfaces
+    kinds: dict[tuple[object, ...], int] = {}
+    asked = [(one.construction_class, one.heat_gain, _coverage(one)) for one in scene.features]
+    of_feature = {one: place for place, one in enumerate(dict.fromkeys(asked))}
+    own = np.array([of_feature[one] for one in asked], dtype=np.int64)[surfaces.feature]
+    columns = (surfaces.word, surfaces.role, surfaces.interior, surfaces.by_class, own)
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    alike = np.array([kinds.setdefault(row, len(kinds)) for row in rows], dtype=np.int64)
+    return np.unique(alike, return_index=True)[1], alike
 
 
 def resolve_surface_word(scene: Scene, catalogue: Catalogue, row: int) -> tuple[MaterialWord, str | None]:

@@ -21,12 +21,12 @@ from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
-from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films
+from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films, wind_towards
 from sensorsim.tables.sun_response import sun_response
-from sensorsim.thermal.boundary import Outside
-from sensorsim.thermal.convection import MOWITT, forced_film
+from sensorsim.thermal.boundary import Outside, outside_at
+from sensorsim.thermal.convection import MOWITT
 from sensorsim.thermal.ground import ground_temperature
-from sensorsim.thermal.heat_balance import Exposure, expose
+from sensorsim.thermal.heat_balance import Exposure, expose, outside_of
 from sensorsim.thermal.lead_in import LeadIn, lead_in_of, longest
 from sensorsim.thermal.natural import melting_depth, surface_boundary
 
@@ -88,7 +88,7 @@ class _Bake:
 
     environment: Environment
     exposure: Exposure
-    smooth: FloatArray | None  # (t, o) see `heat_balance.outside_of`
+    smooth: Outside | None  # see `surface_boundary`
     settings: BakeSettings
     plan: EffectPlan
     scope: Scope
@@ -138,7 +138,7 @@ class _Bake:
             part = Exposure(
                 normal=part.normal[needed], irradiance=part.irradiance[:, needed], longwave=part.longwave[:, needed]
             )
-            smooth = None if smooth is None else smooth[:, needed]
+            smooth = None if smooth is None else outside_at(smooth, needed)
         outside = surface_boundary(
             self.environment, part, wall, correlation=self.settings.convection, plan=self.plan, smooth=smooth
         )
@@ -184,38 +184,26 @@ def _prepare(
     """What all wall types of a bake share, over a ground plane of temperature `soil` (t,) [K]."""
     record, lit = kept_samples(environment, settings), wants_lobes(settings, scope, plan)
     sources = lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan) if lit else None
-    angle = np.radians(environment.wind_direction[record])
-    towards = np.stack([np.sin(angle), np.cos(angle)], axis=1)
+    exposure = expose(environment, scope.solved, soil, sky=settings.sky, plan=plan)
     return _Bake(
         environment=environment,
-        exposure=expose(environment, scope.solved, soil, sky=settings.sky, plan=plan),
-        smooth=_smooth_film(environment, scope.solved, settings.convection),
+        exposure=exposure,
+        smooth=None
+        if settings.convection not in MOWITT
+        else outside_of(
+            environment, exposure, emissivity=1.0, roughness="very_smooth", correlation=settings.convection, plan=plan
+        ),
         settings=settings,
         plan=plan,
         scope=scope,
         wall_types=tuple(wall_types),
         record=record,
         sources=sources,
-        towards=towards,
+        towards=wind_towards(environment, record),
         frame=None
         if sources is None
-        else fit_frame(
-            settings,
-            scope.reflectances,
-            facing_lobes(sources, scope.solved),
-            air=environment.air_temperature[record],
-            towards=towards,
-            clock=sources.clock,
-        ),
+        else fit_frame(environment, record, settings, scope.reflectances, facing_lobes(sources, scope.solved)),
     )
-
-
-def _smooth_film(environment: Environment, normal: FloatArray, correlation: str) -> FloatArray | None:
-    """Forced film (t, o) of very smooth surfaces, where that of all others is only so many times as much."""
-    if correlation not in MOWITT:
-        return None
-    wind = environment.wind_speed, environment.wind_direction
-    return forced_film(normal, *wind, "very_smooth", correlation=correlation)
 
 
 def _bake_walls(bake: _Bake, progress: Progress | None) -> tuple[list[FittedWall], tuple[LeadIn, ...]]:

@@ -105,7 +105,9 @@ def lobe_sources(
         sun=environment.sun_direction[record],
         clock=(record - window.start) * environment.step,
         first=first,
-        light=np.hstack([sources[0][:, lit[lit < count]], sources[1][:, lit[lit < count]], sources[2]]),
+        light=np.ascontiguousarray(
+            np.hstack([sources[0][:, lit[lit < count]], sources[1][:, lit[lit < count]], sources[2]])
+        ),
     )
 
 

@@ -72,6 +72,15 @@ def outside_from(outside: Outside, first: int, stride: int = 1) -> Outside:
     return outside._replace(**{name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names})
 
 
+def outside_at(outside: Outside, chosen: NDArray[np.bool_]) -> Outside:
+    """What acts on the exterior faces of some of the orientations (o,)."""
+    names = ["irradiance", "longwave", "film"]
+    names += ["latent"] if outside.latent.shape[1] == chosen.size else []
+    series = {name: getattr(outside, name)[:, chosen] for name in names}
+    colder = outside.free_colder[chosen] if outside.free_colder.size else outside.free_colder
+    return outside._replace(free=outside.free[chosen], free_colder=colder, **series)
+
+
 def inside_from(inside: Inside, first: int, stride: int = 1) -> Inside:
     """What acts on the interior face from a sample on, of every `stride`-th one."""
     chosen = slice(first, None, stride)

@@ -20,36 +20,27 @@ def factor(grid: WallGrid, span: float, step: float) -> Cells:
     if rate.size == 0:
         idle = np.array([1.0, 1.0, 1.0, 1.0, 0.0]) * conductance[0]
         return Cells(np.stack([idle, idle]), np.zeros((0, 5)), np.zeros((0, 5)), np.zeros(2))
-    return Cells(*_factored(rate, conductance, grid.capacity, step))
+    outward, inward, gains = np.zeros((rate.size, 5)), np.zeros((rate.size, 5)), np.zeros((2, 4))
+    _eliminate(rate, conductance, outward, gains[0])
+    _eliminate(rate[::-1].copy(), conductance[::-1].copy(), inward, gains[1])
+    ends = [0, -1]
+    exchange = np.array([[*gains[0], conductance[0]], [*gains[1, ::-1], conductance[-1]]])
+    around = (conductance[:-1] + conductance[1:])[ends]
+    stiff = step * around > STIFF * grid.capacity[ends]
+    return Cells(exchange, outward, inward[::-1].copy(), np.where(stiff, 1.0 + rate[ends] / around, 0.0))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _factored(
-    rate: FloatArray, conductance: FloatArray, capacity: FloatArray, step: float
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """The parts of `Cells` for at least one cell; compiled, as a bake factors hundreds of walls in one go."""
-    outward, gains = _eliminate(rate, conductance)
-    inward, mirrored = _eliminate(rate[::-1].copy(), conductance[::-1].copy())
-    exchange, reach = np.zeros((2, 5)), np.zeros(2)
-    exchange[0, :4], exchange[0, 4] = gains, conductance[0]
-    exchange[1, :4], exchange[1, 4] = mirrored[::-1], conductance[-1]
-    for end in (0, -1):
-        around = conductance[end] + conductance[1 if end == 0 else -2]
-        if step * around > STIFF * capacity[end]:
-            reach[end] = 1.0 + rate[end] / around
-    return exchange, outward, inward[::-1].copy(), reach
+def _eliminate(rate: FloatArray, conductance: FloatArray, factors: FloatArray, gains: FloatArray) -> None:
+    """Factors (n, 5) of an elimination from the last cell to the first, and what the faces exchange (4,).
 
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _eliminate(rate: FloatArray, conductance: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Factors (n, 5) of an elimination from the last cell to the first, and what the faces exchange (4,)."""
+    Compiled, as a bake factors hundreds of walls; in bare loops, which are compiled soon.
+    """
     n = rate.size
-    inner, factors = rate + conductance[n], np.zeros((n, 5))
-    pivot, face = 0.0, 1.0
+    inner, pivot, face = 0.0, 0.0, 1.0
     for i in range(n - 1, -1, -1):  # sums of positive terms alone: a metal skin's differences would be all rounding
-        if i < n - 1:
-            inner[i] = rate[i] + conductance[i + 1] * inner[i + 1] * pivot
-        pivot = 1.0 / (conductance[i] + inner[i])
+        inner = rate[i] + conductance[i + 1] * (inner * pivot if i < n - 1 else 1.0)
+        pivot = 1.0 / (conductance[i] + inner)
         face *= pivot * conductance[i + 1]
         factors[i, 0], factors[i, 1] = rate[i] * pivot, conductance[i + 1] / rate[i]
         factors[i, 3], factors[i, 4] = pivot * conductance[i], face
@@ -58,5 +49,5 @@ def _eliminate(rate: FloatArray, conductance: FloatArray) -> tuple[FloatArray, F
         far = factors[i, 4] + factors[i, 3] * far
         factors[i, 2] = rate[i] * far
         taken += factors[i, 2]
-    through = conductance[0] * factors[0, 4]
-    return factors, np.array([conductance[0] * inner[0] * pivot, through, through, through + taken])
+    gains[0], gains[1] = conductance[0] * inner * pivot, conductance[0] * factors[0, 4]
+    gains[2], gains[3] = gains[1], gains[1] + taken

@@ -18,7 +18,7 @@ from sensorsim.environment import Environment, circumsolar_irradiance, perez_irr
 from sensorsim.errors import InputError
 from sensorsim.thermal.air_properties import air_at, pressure_at
 from sensorsim.thermal.boundary import Outside
-from sensorsim.thermal.convection import ROUGHNESS_FACTOR, forced_film, free_film_cubed
+from sensorsim.thermal.convection import forced_film, free_film_cubed
 from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.view_factors import ground_view_factor, quadrant_view_factors, sky_view_factor
 
@@ -139,20 +139,16 @@ def outside_of(
     correlation: str = "mowitt",
     length: float | None = None,
     plan: EffectPlan = EVERYTHING,
-    smooth: FloatArray | None = None,
 ) -> Outside:
     """Exterior boundary of a wall of a long-wave emissivity and a roughness class.
 
     `correlation` is one of `convection.CORRELATIONS`, `length` [m] that of the surface along the wind, which some of
-    them need; `smooth` is the film (t, o) of very smooth surfaces in any of MOWITT, for who has it already. Air has
-    the pressure of the site's altitude; free convection that of the mean temperature.
+    them need. Air has the pressure of the site's altitude; free convection that of the mean temperature.
     """
     pressure = pressure_at(environment.site.altitude)
     film, still = np.zeros(exposure.irradiance.shape), np.zeros(exposure.normal.shape[0])
     free, colder = still, still
-    if smooth is not None and plan.has("forced_convection"):
-        film = ROUGHNESS_FACTOR[roughness] * smooth
-    elif plan.has("forced_convection"):
+    if plan.has("forced_convection"):
         film = forced_film(
             exposure.normal,
             environment.wind_speed,

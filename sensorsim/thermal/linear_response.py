@@ -26,6 +26,8 @@ LEAST_SLOPE = 1e-3  # [W m-2 K-1] in perfectly still air between black bodies of
 # The face, what the cells send to it, the cell before; heat at the step's two samples.
 FACE, LEFT, BEFORE, EARLY, LATE, ALL = ROW[0:6]
 NOW, WORK, CELL = ROW[0:3]
+FADED = 1e-30  # [K], [W m-2] as good as nothing, long before numbers get so small that processors are slow with them
+FADING = 16  # steps after which what has faded is forgotten
 
 
 def exterior_slope(outside: Outside, temperature: FloatArray) -> FloatArray:
@@ -100,6 +102,9 @@ def _all(
             _turn(lanes, w, c, place, outward, inward)
             _face(lanes, w, 1.0 / (slope[k + 1] + late_through[0]), 1.0)
             _close(lanes, w, c, place, inward, outward, through[4])
+            if k % FADING == 0:
+                _fade(w)
+                _fade(c)
             if record[row] == k + 1:
                 for j in range(count):
                     rise[row, begin + j] = w[FACE + j]
@@ -114,6 +119,13 @@ def _beginning(count: Index, source: FloatArray, begin: int) -> int:
             if source[k, begin + j] != 0.0:
                 return max(k - 1, 0)
     return source.shape[0]
+
+
+@inner
+def _fade(values: FloatArray) -> None:
+    """Nothing for what is as good as nothing."""
+    for j in range(values.size):
+        values[j] = values[j] if abs(values[j]) > FADED else 0.0
 
 
 @inner

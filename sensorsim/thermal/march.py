@@ -108,7 +108,11 @@ def _plain_inside(inside: Inside, grid: WallGrid) -> Inside:
 
 def _plain(value: Any) -> Any:
     """Contiguous and of double precision: other kinds of array would each be compiled for anew."""
-    return np.require(value, np.float64, ["C", "W"]) if isinstance(value, np.ndarray) else float(value)
+    if not isinstance(value, np.ndarray):
+        return float(value)
+    flags = value.flags
+    plain = flags.c_contiguous and flags.writeable and value.dtype == np.float64
+    return value if plain else np.require(value, np.float64, ["C", "W"])
 
 
 def _taken(columns: Columns, thaw: Thaw) -> FloatArray:

@@ -23,6 +23,7 @@ from sensorsim.environment import Environment, saturation_vapour_pressure
 from sensorsim.materials import Cover, WallType
 from sensorsim.thermal.air_properties import GRAVITY, SPECIFIC_HEAT, air_at, pressure_at
 from sensorsim.thermal.boundary import Outside
+from sensorsim.thermal.convection import ROUGHNESS_FACTOR
 from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.heat_balance import Exposure, outside_of
 from sensorsim.thermal.rain import FILM_CAPACITY, LEAF_CAPACITY, caught_rain, rain_film, wet_share
@@ -45,17 +46,21 @@ AERODYNAMIC = ("soil", "plants", "water", "snow")
 
 def surface_boundary(
     environment: Environment, exposure: Exposure, wall: WallType, *, correlation: str = "mowitt",
-    plan: EffectPlan = EVERYTHING, smooth: FloatArray | None = None,
+    plan: EffectPlan = EVERYTHING, smooth: Outside | None = None,
 ) -> Outside:  # fmt: skip
     """What acts on the exterior face of a wall type: building, soil, plants, water, snow or road, in rain and sun.
 
-    `smooth` is that of `heat_balance.outside_of`.
+    `smooth` is what acts on a very smooth building, where by the correlation the roughness only multiplies its film,
+    for who has it already: the same for all wall types.
     """
     cover = wall.cover
-    outside = outside_of(
-        environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness, correlation=correlation,
-        length=wall.characteristic_length, plan=plan, smooth=smooth,
-    )  # fmt: skip
+    if smooth is None:
+        outside = outside_of(
+            environment, exposure, emissivity=wall.emissivity, roughness=wall.roughness, correlation=correlation,
+            length=wall.characteristic_length, plan=plan,
+        )  # fmt: skip
+    else:
+        outside = smooth._replace(film=ROUGHNESS_FACTOR[wall.roughness] * smooth.film, emissivity=wall.emissivity)
     if cover is not None and cover.kind in AERODYNAMIC:
         film, still = np.zeros(exposure.irradiance.shape), np.zeros_like(outside.free)
         if plan.has("forced_convection"):
