@@ -123,7 +123,7 @@ def test_lobe_that_a_surface_did_not_see_leaves_it_colder_and_others_alone() -> 
 
 
 def test_lobes_take_out_most_of_what_the_orientations_miss() -> None:
-    """Winter daylight, random normals, against their own full solve: 99 of 100 within 0.06 K, a 20th of the plain."""
+    """Winter daylight, random normals against their full solve: 99 of 100 within 0.06 K, a twentieth of the plain."""
     hours = np.array([7.0, 8.0, 10.0, 12.5, 15.0, 16.5, 20.0]) * 3600.0
     surfaces = Surfaces(
         wall_types=wall_types(), normal=random_normals(80), reflectance=np.array([0.05, 0.5, 0.95]), time_of_day=hours

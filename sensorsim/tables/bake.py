@@ -21,7 +21,7 @@ from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
-from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films
+from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films, wind_towards
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.boundary import Outside, outside_at
 from sensorsim.thermal.convection import MOWITT
@@ -184,8 +184,6 @@ def _prepare(
     """What all wall types of a bake share, over a ground plane of temperature `soil` (t,) [K]."""
     record, lit = kept_samples(environment, settings), wants_lobes(settings, scope, plan)
     sources = lobe_sources(environment, record, interval=settings.lobes, sky=settings.sky, plan=plan) if lit else None
-    angle = np.radians(environment.wind_direction[record])
-    towards = np.stack([np.sin(angle), np.cos(angle)], axis=1)
     exposure = expose(environment, scope.solved, soil, sky=settings.sky, plan=plan)
     return _Bake(
         environment=environment,
@@ -201,17 +199,10 @@ def _prepare(
         wall_types=tuple(wall_types),
         record=record,
         sources=sources,
-        towards=towards,
+        towards=wind_towards(environment, record),
         frame=None
         if sources is None
-        else fit_frame(
-            settings,
-            scope.reflectances,
-            facing_lobes(sources, scope.solved),
-            air=environment.air_temperature[record],
-            towards=towards,
-            clock=sources.clock,
-        ),
+        else fit_frame(environment, record, settings, scope.reflectances, facing_lobes(sources, scope.solved)),
     )
 
 

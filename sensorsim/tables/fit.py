@@ -14,12 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from sensorsim.constants import SECONDS_PER_HOUR
+from sensorsim.environment import Environment
 from sensorsim.tables.coefficients import fit_polynomials
 from sensorsim.tables.lobes import gain_terms, lobe_gain
-from sensorsim.tables.orientations import FloatArray, orientation_set
+from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.spline import roughness
-from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms, wind_share
+from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms, wind_share, wind_towards
 
 UNSURE = 0.01  # of a gain's energy that stands for a gain of 1
 DARKER = 1e-3  # least absorptance
@@ -53,15 +54,16 @@ class FitFrame:
 
 
 def fit_frame(
-    settings: BakeSettings, reflectances: Sequence[float], facing: FloatArray, *, air: FloatArray, towards: FloatArray,
-    clock: FloatArray,
+    environment: Environment, record: IntArray, settings: BakeSettings, reflectances: Sequence[float],
+    facing: FloatArray,
 ) -> FitFrame:  # fmt: skip
-    """Frame of fits at slices of times (t,) [s], under air (t,) [K] and wind from directions (t, 2)."""
-    normal = orientation_set(settings.orientations).normal
+    """Frame of fits at the samples `record` (t,), of solved reflectances, with cosines (t, k + 1, o) to the lobes."""
+    normal, towards = orientation_set(settings.orientations).normal, wind_towards(environment, record)
     return FitFrame(
         orientations=settings.orientations, reflectances=np.asarray(reflectances, dtype=np.float64),
-        degree=min(settings.degree, len(reflectances) - 1), knot=settings.knot, facing=facing, air=air,
-        terms=(wind_share(normal, towards), *tilt_terms(normal)), nearby=nearby_slices(clock),
+        degree=min(settings.degree, len(reflectances) - 1), knot=settings.knot, facing=facing,
+        air=environment.air_temperature[record],
+        terms=(wind_share(normal, towards), *tilt_terms(normal)), nearby=nearby_slices(environment.time[record]),
     )  # fmt: skip
 
 

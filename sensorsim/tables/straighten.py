@@ -20,6 +20,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
+from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import least_squares
 from sensorsim.tables.orientations import FloatArray, IntArray
@@ -77,6 +78,12 @@ def tilt_terms(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Cube of the free film (m,) of warmer and of colder faces (m, 3) over that of a vertical one [-]."""
     warmer, colder = (free_film_cubed(normal, warmer=warm) / _VERTICAL for warm in (True, False))
     return warmer, colder
+
+
+def wind_towards(environment: Environment, record: IntArray) -> FloatArray:
+    """Direction (t, 2) east and north, unit, that the wind comes from at the samples `record` (t,)."""
+    angle = np.radians(environment.wind_direction[record])
+    return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
 
 def wind_share(normal: FloatArray, towards: FloatArray) -> FloatArray:
