@@ -6,7 +6,7 @@ of the face temperatures. Its state is in degrees Celsius, so that a metal skin'
 multiplies the rounding errors of 20 and not of 300.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +69,8 @@ def outside_from(outside: Outside, first: int, stride: int = 1) -> Outside:
     names += ["vapour"] if outside.vapour.size else []
     names += ["latent"] if len(outside.latent) == len(outside.air) else []
     chosen = slice(first, None, stride)
-    return outside._replace(**{name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names})
+    series: dict[str, Any] = {name: np.ascontiguousarray(getattr(outside, name)[chosen]) for name in names}
+    return outside._replace(**series)
 
 
 def outside_at(outside: Outside, chosen: NDArray[np.bool_]) -> Outside:

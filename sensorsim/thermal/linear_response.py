@@ -118,7 +118,7 @@ def _beginning(count: Index, source: FloatArray, begin: int) -> int:
         for j in range(count):
             if source[k, begin + j] != 0.0:
                 return max(k - 1, 0)
-    return source.shape[0]
+    return int(source.shape[0])
 
 
 @inner
