@@ -15,8 +15,8 @@ from sensorsim.constants import PI
 from sensorsim.effects.air_bounds import AirBefore
 from sensorsim.effects.costs import pixel_cost
 from sensorsim.effects.face import FloatArray
+from sensorsim.effects.glint import Gleam
 from sensorsim.effects.ledger import NOISE_SHARE, Bound
-from sensorsim.environment import SUN_RADIUS
 from sensorsim.radiometry import BandTable
 
 GREY_STEPS = 255.0  # of a display, from a black surface to a white one in the light of the moment
@@ -39,6 +39,7 @@ class Look:
     emissivity: FloatArray  # (s,) in band, without gloss [-]
     reflectance: FloatArray  # (s,) in band [-]
     mirrors: Mirrors
+    gleam: Gleam  # of those in a reflective band
     coldest: float  # of all surfaces at the moment, or a bound of it [K]
     warmest: float  # the same
     sun_direction: FloatArray  # (3,)
@@ -104,27 +105,28 @@ def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     """Bounds [W m-2 sr-1] of radiance. Light of sky and ground is what such a band is about, and no effect."""
     share, count, cost = look.reflectance / PI, look.mirrors.matt.size, pixel_cost(look.pixels)
     direct = float(np.max(share * look.beam * np.maximum(look.normal @ look.sun_direction, 0.0), initial=0.0))
-    sky = 4.0 * float(look.quadrant.max()) * 0.5 * (1.0 + look.normal[:, 2])
-    ground = PI * look.ground_radiance * 0.5 * (1.0 - look.normal[:, 2])
-    matt = direct + float(np.max(share * (sky + ground), initial=0.0))
-    glint = brightest_glint(look)
-    mirrored = max(look.sky_range[1], look.ground_radiance) + glint if count else 0.0
+    sunlit = max(direct, look.gleam.sunlit)
+    matt = direct + float(
+        np.max(share * diffuse_irradiance(look.normal, look.quadrant, look.ground_radiance)[1], initial=0.0)
+    )
     return {
         "specular": Bound(
-            value=matt + mirrored if count else 0.0, saves=cost if count else 0.0,
+            value=look.gleam.change, saves=cost if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "reflected_sun": Bound(
-            value=direct + glint, saves=cost,
-            reason="sun or moon lights surfaces" if direct + glint > 0.0 else "neither sun nor moon",
+            value=sunlit, saves=cost, reason="sun or moon lights surfaces" if sunlit > 0.0 else "neither sun nor moon"
         ),
-        "atmosphere": _air(look, 0.0, matt + mirrored, None),
+        "atmosphere": _air(look, 0.0, max(matt, look.gleam.sent), None),
     }  # fmt: skip
 
 
-def brightest_glint(look: Look) -> float:
-    """Radiance [W m-2 sr-1] that no glint exceeds: of the light's own disc, where glossy surfaces may be in view."""
-    return look.beam / (PI * SUN_RADIUS**2) if look.mirrors.matt.size else 0.0
+def diffuse_irradiance(
+    normal: FloatArray, quadrant: FloatArray, ground_radiance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest irradiance (s,) [W m-2] of faces (s, 3) by the quarters of the sky and the ground."""
+    ground, share = PI * ground_radiance * 0.5 * (1.0 - normal[:, 2]), 2.0 * (1.0 + normal[:, 2])
+    return ground + share * quadrant.min(), ground + share * quadrant.max()
 
 
 def reflective_tolerance(look: Look) -> float:
