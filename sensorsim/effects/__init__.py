@@ -23,7 +23,7 @@ from sensorsim.effects.glint import Gleam, Glossy, gleam
 from sensorsim.effects.ledger import DEFAULT_NOISE, NOISE_SHARE, Bound, Ledger, LedgerRow, decide
 from sensorsim.effects.plan import EVERYTHING, EffectPlan
 from sensorsim.effects.sensor_bounds import sensor_bounds, signal_tolerance
-from sensorsim.effects.surface_bounds import QUARTERS, Situation, film_bound, surface_bounds
+from sensorsim.effects.surface_bounds import QUARTERS, Situation, film_bound, reflectance_bound, surface_bounds
 
 __all__ = [
     "DEFAULT_NOISE",
@@ -58,6 +58,7 @@ __all__ = [
     "gleam",
     "march_cost",
     "read_choice",
+    "reflectance_bound",
     "reflective_bounds",
     "reflective_tolerance",
     "sensor_bounds",

@@ -19,6 +19,7 @@ from sensorsim.effects import (
     decide,
     film_bound,
     march_cost,
+    reflectance_bound,
     surface_bounds,
     term_cost,
 )
@@ -31,7 +32,7 @@ from sensorsim.sensor import Sensor, netd, sensor_parts
 from sensorsim.tables import BakeSettings, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.faces import ground_face, scene_faces
-from sensorsim.tables.scope import Scope, scene_scope, whole_scope
+from sensorsim.tables.scope import Scope, plain_walls, polynomial_miss, scene_scope, whole_scope
 from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
@@ -93,7 +94,7 @@ def survey_scene(
     limits = situation.limits
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
     bounds = _worth(situation, limits, choice, sensor)
-    bounds.update(_spared(environment, assignment, scene, settings))
+    bounds.update(_spared(situation, assignment, scene, settings))
     return Survey(
         scene=scene,
         environment=environment,
@@ -183,13 +184,14 @@ def _priced(situation: Situation) -> dict[str, Bound]:
     return {name: replace(bound, saves=saves) for name, bound in surface_bounds(situation).items()}
 
 
-def _spared(environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
-    """What need not be solved because no surface shows it: exact, and most of the time that a bake takes."""
-    whole = whole_scope(assignment.wall_types, settings).columns
+def _spared(situation: Situation, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
+    """What need not be solved because no surface shows it: most of the time that a bake takes."""
+    environment, whole = situation.environment, whole_scope(assignment.wall_types, settings).columns
     turned = EffectPlan(off=("spare_orientations",))
     seen = _scope(environment, assignment, scene, settings, turned).columns
-    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances")).columns
+    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances"))
     samples, all_needed = environment.time.size, "a spline, the closest three and lobes are made from all of them"
+    value, reason = _reflectance_worth(situation, assignment, settings, shown)
     return {
         "spare_orientations": Bound(
             value=0.0,
@@ -197,8 +199,27 @@ def _spared(environment: Environment, assignment: Assignment, scene: Scene, sett
             saves=march_cost(whole - seen, samples),
         ),
         "spare_reflectances": Bound(
-            value=0.0,
-            reason="no light to reflect" if shown < seen else "sunlight tells them apart",
-            saves=march_cost(seen - shown, samples),
+            value=value if shown.columns < seen else 0.0,
+            reason=reason if shown.columns < seen else "surfaces have as many as are solved",
+            saves=march_cost(seen - shown.columns, samples),
         ),
     }
+
+
+def _reflectance_worth(
+    situation: Situation, assignment: Assignment, settings: BakeSettings, shown: Scope
+) -> tuple[float, str]:
+    """What a bake of the scene's own reflectances differs by from one of all [K], at most, and why."""
+    if not shown.lit:
+        return 0.0, "no light to reflect"
+    limits = situation.limits
+    if settings.lobes > 0.0 or settings.interpolation == "spline":
+        return limits.greatest - limits.coldest, "lobes and splines are fitted to all of them together"
+    misses = {
+        wall: polynomial_miss(own, settings)
+        for wall, own in zip(assignment.wall_types, shown.reflectances, strict=True)
+        if own != settings.reflectances
+    }
+    plain = dict.fromkeys(part for wall in assignment.wall_types for part in plain_walls(wall))
+    value = reflectance_bound(situation, [misses.get(wall, 0.0) for wall in plain])
+    return value, f"{len(misses)} of {len(assignment.wall_types)} wall types have fewer than are solved"

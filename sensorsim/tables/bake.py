@@ -90,10 +90,9 @@ class _Bake:
     sources: LobeSources | None
     facing: FloatArray | None  # (t, k + 1, o) of the solved orientations to the lobes
 
-    @property
-    def reflectances(self) -> FloatArray:
-        """Reflectances (r,) that are solved."""
-        return np.asarray(self.scope.reflectances, dtype=np.float64)
+    def reflectances(self, wall: WallType) -> FloatArray:
+        """Reflectances (r,) that are solved of a wall type."""
+        return self.scope.reflectances_of(self.wall_types, wall)
 
     def cost(self, wall: WallType) -> tuple[bool, float]:
         """By which plain wall types are sorted so that no thread is left with a dear one at the end."""
@@ -108,7 +107,7 @@ class _Bake:
         own = self.settings.lead_in_days is None
         outside = surface_boundary(self.environment, part, wall, correlation=self.settings.convection, plan=self.plan)
         solved = wall_history(
-            self.environment, outside, wall, 1.0 - self.reflectances, self.record, plan=self.plan,
+            self.environment, outside, wall, 1.0 - self.reflectances(wall), self.record, plan=self.plan,
             lead_in=lead_in_of(wall, self.environment, own=own), cell_size=self.settings.cell_size,
             stride=self.settings.lead_in_stride,
         )  # fmt: skip
@@ -123,8 +122,14 @@ class _Bake:
         return _Solved(temperature=temperature, weight=lobe_weights(self.sources, response))
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
-        """Fit any wall type, from its parts where it is mixed."""
-        refl = self.reflectances
+        """Fit any wall type, from its parts where it is mixed; with as many powers as any of them has."""
+        fitted = self._fit(wall, solved)
+        spare = min(self.settings.degree, self.scope.most - 1) + 1 - fitted.coefficients.shape[-1]
+        return replace(fitted, coefficients=np.pad(fitted.coefficients, ((0, 0), (0, 0), (0, spare))))
+
+    def _fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
+        """Fit any wall type by a polynomial through its own reflectances."""
+        refl = self.reflectances(wall)
         degree = min(self.settings.degree, refl.size - 1)
         own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
         plain = [solved[part] for part in plain_walls(wall)]
@@ -147,7 +152,7 @@ class _Bake:
     def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
         needed = self.scope.needed[self.wall_types.index(wall)]
-        fitted = fit_plain(temperature[:, needed], self.reflectances, degree)
+        fitted = fit_plain(temperature[:, needed], self.reflectances(wall), degree)
         coefficients = np.full((*temperature.shape[:2], degree + 1), np.nan)
         coefficients[:, needed] = fitted.coefficients
         return replace(fitted, coefficients=coefficients)
