@@ -12,7 +12,7 @@ from sensorsim.render.illumination import Illumination
 from sensorsim.render.pixel_kernels import find_runs, light_rows
 from sensorsim.render.planes import Planes, triangle_planes
 from sensorsim.render.solids import Solids
-from sensorsim.render.surface_light import SurfaceLight
+from sensorsim.render.surface_light import SurfaceLight, of_solids
 from sensorsim.render.surface_table import SurfaceRows
 from sensorsim.render.world import World
 
@@ -46,7 +46,8 @@ class QuickLight:
         planes, sent = _NO_PLANES, _NONE_SENT
         if solids is not None:
             planes = triangle_planes(solids.triangles)
-            sent = self.surfaces.of_solids(solids, illumination)
+            sent = np.zeros((len(planes), 2), np.float32)
+            sent[:, 0] = of_solids(solids, illumination, self.surfaces.band_table)
         seen, ends = np.zeros(self.gloss.size + len(planes) + 1, np.bool_), self.ends
         self.each(len(numbers), lambda first, last: find_runs(numbers, first, last, ends, seen))
         settled = self.surfaces.settle(time_of_day, illumination, seen[1 : self.gloss.size + 1])

@@ -28,6 +28,7 @@ from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
 from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
+from sensorsim.render.surface_light import of_solids
 from sensorsim.render.surface_table import surface_codes, surface_rows
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
@@ -129,7 +130,7 @@ class Renderer:
                 self._solids.solids = solids
                 self._moment.set(time_of_day, illumination, plan)
                 self._set_view(camera, illumination)
-                found, settings = self._show_all(camera, chosen, frame, wanted, plan)
+                found, settings = self._show_all(camera, chosen, frame, wanted, plan, illumination)
         return Picture(
             planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
             ledger=ledger, count_step=None if road or self._chain is None else self._chain.step,
@@ -172,9 +173,7 @@ class Renderer:
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
         self._may_be_quick = all(choice.asked(one.name) is not False for one in EFFECTS if one.stage != SURFACE)
-        self._solids = SolidPass(
-            ctx, self._moment.generated, emissive=emissive, first=self.world.scene.surfaces.area.size
-        )
+        self._solids = SolidPass(ctx, self.world.scene.surfaces.area.size)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -219,9 +218,15 @@ class Renderer:
         return self._quick
 
     def _show_all(
-        self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
+        self,
+        camera: Camera,
+        display: DisplaySettings,
+        frame: int,
+        wanted: set[str],
+        plan: EffectPlan,
+        illumination: Illumination,
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
-        self._draw(plan)
+        self._draw(plan, illumination)
         planes = self._read(camera, wanted, plan)
         self._detect(camera, planes, frame)
         seen = exposed(planes)
@@ -230,14 +235,15 @@ class Renderer:
         planes["display"] = self._screen.show(shown, settings, self._gain.curve(settings, seen))
         return {name: plane for name, plane in planes.items() if name in wanted}, settings
 
-    def _draw(self, plan: EffectPlan) -> None:
+    def _draw(self, plan: EffectPlan, illumination: Illumination) -> None:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
         self._programs.background(plan).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._programs.surfaces(plan).draw()
-        self._solids.draw()
+        if self._solids.solids is not None:
+            self._solids.draw(of_solids(self._solids.solids, illumination, self.band_table, plan))
 
     def _bind(self) -> None:
         for block in _BLOCKS:
