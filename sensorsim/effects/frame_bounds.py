@@ -86,15 +86,15 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
     alone = matt * own.least
     dimmest = min(_mix(matt, own.least, mean.least), _mix(glossy, own.least, spots.least))
     lost = max((1.0 - matt) * mean.greatest, _worth_of_emission_alone(look.mirrors, own, spots))
-    mirrors, cost = _worth_of_mirrors(look.mirrors, own, mean, spots), pixel_cost(look.pixels)
+    mirrors = _worth_of_mirrors(look.mirrors, own, mean, spots)
     count = look.mirrors.matt.size
     return {
         "reflected_sky": Bound(
-            value=_kelvin(table, min(alone, dimmest), lost), saves=cost,
+            value=_kelvin(table, min(alone, dimmest), lost), saves=pixel_cost("reflected_sky", look.pixels),
             reason=f"least emissivity {min(matt, glossy):.3g}",
         ),
         "specular": Bound(
-            value=_kelvin(table, dimmest, mirrors), saves=cost if count else 0.0,
+            value=_kelvin(table, dimmest, mirrors), saves=pixel_cost("specular", look.pixels) if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "atmosphere": _air(look, dimmest if mirrored else alone, max(own.greatest, spots.greatest), table),
@@ -103,7 +103,7 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
 
 def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     """Bounds [W m-2 sr-1] of radiance. Light of sky and ground is what such a band is about, and no effect."""
-    share, count, cost = look.reflectance / PI, look.mirrors.matt.size, pixel_cost(look.pixels)
+    share, count = look.reflectance / PI, look.mirrors.matt.size
     direct = float(np.max(share * look.beam * np.maximum(look.normal @ look.sun_direction, 0.0), initial=0.0))
     sunlit = max(direct, look.gleam.sunlit)
     matt = direct + float(
@@ -111,11 +111,12 @@ def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     )
     return {
         "specular": Bound(
-            value=look.gleam.change, saves=cost if count else 0.0,
+            value=look.gleam.change, saves=pixel_cost("specular", look.pixels) if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "reflected_sun": Bound(
-            value=sunlit, saves=cost, reason="sun or moon lights surfaces" if sunlit > 0.0 else "neither sun nor moon"
+            value=sunlit, saves=pixel_cost("reflected_sun", look.pixels),
+            reason="sun or moon lights surfaces" if sunlit > 0.0 else "neither sun nor moon",
         ),
         "atmosphere": _air(look, 0.0, max(matt, look.gleam.sent), None),
     }  # fmt: skip
@@ -162,7 +163,7 @@ def _air(look: Look, dimmest: float, brightest: float, table: BandTable | None) 
     return Bound(
         value=change if table is None else _kelvin(table, least, change),
         reason=f"a path {path}; up to {100.0 * look.air.worst_opacity:.3g} % of a surface's radiance is lost in it",
-        saves=pixel_cost(look.pixels),
+        saves=pixel_cost("atmosphere", look.pixels),
     )
 
 

@@ -37,6 +37,7 @@ from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
 EVERY_EFFECT = EffectChoice(base="all")
+SPARE = ("spare_orientations", "spare_reflectances")
 UNSEEN = "the band shows reflected light, not temperature"
 
 
@@ -93,8 +94,9 @@ def survey_scene(
     situation = _held(_situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor))
     limits = situation.limits
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
-    bounds = _worth(situation, limits, choice, sensor)
-    bounds.update(_spared(situation, assignment, scene, settings))
+    bounds = _worth(situation, limits, choice, sensor, whole_scope(assignment.wall_types, settings).columns)
+    if mode == "emissive" or choice.wants_temperature:
+        bounds.update(_spared(situation, assignment, scene, settings))
     return Survey(
         scene=scene,
         environment=environment,
@@ -160,16 +162,23 @@ def _scope(
     return scene_scope(environment, assignment, scene.surfaces.normal, settings, plan)
 
 
-def _worth(situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None) -> dict[str, Bound]:
-    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
-    bounds = _priced(situation)
+def _worth(
+    situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None, columns: int
+) -> dict[str, Bound]:
+    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are.
+
+    `columns`: histories of all that can be solved, which a band that shows no temperature saves.
+    """
+    bounds, bake = _priced(situation), march_cost(columns, situation.environment.time.size)
     apart = limits.greatest - limits.coldest
-    bounds["exchange"] = Bound(value=apart, reason="computed where asked for, by name or by the bake's settings")
+    bounds["exchange"] = Bound(value=apart, reason="computed where asked for alone: it takes longer than all the rest")
     if sensor is not None and sensor.mode == "reflective":
         if not choice.wants_temperature:
-            unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
-            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN)}
-        return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
+            # Their time is that of temperature.
+            unseen = {name: Bound(value=0.0, reason=UNSEEN) for name in (*bounds, *SPARE)}
+            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN, saves=bake)}
+        asked = "asked for by name or by a plane of the frame"
+        return {**bounds, "temperature": Bound(value=apart, reason=asked, saves=bake)}
     factor = 1.0
     if sensor is not None:
         table = build_band_table(sensor.band)
@@ -178,10 +187,13 @@ def _worth(situation: Situation, limits: Limits, choice: EffectChoice, sensor: S
 
 
 def _priced(situation: Situation) -> dict[str, Bound]:
-    """Bounds with the time that each term takes: a term of light or long waves at every orientation and sample."""
-    orientations = sum(face.normal.shape[0] for face in situation.faces)
-    saves = term_cost(orientations, situation.environment.time.size)
-    return {name: replace(bound, saves=saves) for name, bound in surface_bounds(situation).items()}
+    """Bounds with the time that each term takes; one that the history has none of takes none."""
+    counts, samples = [face.normal.shape[0] for face in situation.faces], situation.environment.time.size
+    shared, all_walls = max(counts, default=0), sum(counts)
+    return {
+        name: replace(bound, saves=term_cost(name, shared, all_walls, samples) if bound.value > 0.0 else 0.0)
+        for name, bound in surface_bounds(situation).items()
+    }
 
 
 def _spared(situation: Situation, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
