@@ -85,14 +85,14 @@ def frame_ledger(
         mirrored = decided.choice.asked("reflected_sky") is not False
         rows = decide(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
-            tolerance=_noise_of(sensor)[0], unit="K", spent=decided.ledger.spent,
+            tolerance=_noise_of(sensor, decided.choice)[0], unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
     return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table)))
 
 
 def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None) -> tuple[LedgerRow, ...]:
     """Rows of the parts of a sensor's chain; none for an ideal sensor."""
-    parts, (_, state) = sensor_parts(sensor), _noise_of(sensor)
+    parts, state = sensor_parts(sensor), _noise_of(sensor, choice)[1]
     if state is None:
         return ()
     if table is None:
@@ -106,9 +106,9 @@ def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTab
 
 
 @lru_cache(maxsize=16)
-def _noise_of(sensor: Sensor) -> tuple[float, Sensitivity | None]:
+def _noise_of(sensor: Sensor, choice: EffectChoice) -> tuple[float, Sensitivity | None]:
     """Tolerance [K] and sensitivity of a sensor, which ask for integrals over its band: None of an ideal one."""
-    return tolerance_of(sensor), None if sensor.detector is None else sensitivity(sensor)
+    return tolerance_of(sensor, choice), None if sensor.detector is None else sensitivity(sensor)
 
 
 def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:

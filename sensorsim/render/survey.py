@@ -37,7 +37,6 @@ from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
 EVERY_EFFECT = EffectChoice(base="all")
-SPARE = ("spare_orientations", "spare_reflectances")
 UNSEEN = "the band shows reflected light, not temperature"
 
 
@@ -91,12 +90,11 @@ def survey_scene(
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = ground_plane(catalogue, season)
-    situation = _held(_situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor))
-    limits = situation.limits
+    situation = _held(
+        _situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor, choice)
+    )
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
-    bounds = _worth(situation, limits, choice, sensor, whole_scope(assignment.wall_types, settings).columns)
-    if mode == "emissive" or choice.wants_temperature:
-        bounds.update(_spared(situation, assignment, scene, settings))
+    bounds = _worth(situation, choice, sensor, _spared(situation, assignment, scene, settings))
     return Survey(
         scene=scene,
         environment=environment,
@@ -105,8 +103,8 @@ def survey_scene(
         ground=ground,
         settings=settings,
         choice=choice,
-        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
-        limits=limits,
+        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor, choice), unit="K")),
+        limits=situation.limits,
     )
 
 
@@ -122,8 +120,13 @@ def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
     return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
 
 
-def tolerance_of(sensor: Sensor | None) -> float:
-    """What effects that are left out may change together [K]: a share of the sensor's NETD, or of a usual one."""
+def tolerance_of(sensor: Sensor | None, choice: EffectChoice) -> float:
+    """What effects that bounds leave out may change together [K].
+
+    What the user says, else a share of the sensor's NETD, or of a usual one.
+    """
+    if choice.tolerance is not None:
+        return choice.tolerance
     stated = sensor is not None and sensor.mode == "emissive" and sensor.detector is not None
     return NOISE_SHARE * (netd(sensor) if stated and sensor is not None else DEFAULT_NOISE)
 
@@ -163,27 +166,23 @@ def _scope(
 
 
 def _worth(
-    situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None, columns: int
+    situation: Situation, choice: EffectChoice, sensor: Sensor | None, spared: dict[str, Bound]
 ) -> dict[str, Bound]:
-    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are.
-
-    `columns`: histories of all that can be solved, which a band that shows no temperature saves.
-    """
-    bounds, bake = _priced(situation), march_cost(columns, situation.environment.time.size)
+    """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
+    bounds, limits = _priced(situation), situation.limits
     apart = limits.greatest - limits.coldest
     bounds["exchange"] = Bound(value=apart, reason="computed where asked for alone: it takes longer than all the rest")
     if sensor is not None and sensor.mode == "reflective":
         if not choice.wants_temperature:
-            # Their time is that of temperature.
-            unseen = {name: Bound(value=0.0, reason=UNSEEN) for name in (*bounds, *SPARE)}
-            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN, saves=bake)}
-        asked = "asked for by name or by a plane of the frame"
-        return {**bounds, "temperature": Bound(value=apart, reason=asked, saves=bake)}
+            unseen = {name: Bound(value=0.0, reason=UNSEEN) for name in (*bounds, *spared)}
+            baked = replace(spared["temperature"], value=0.0, reason=UNSEEN)  # their time is in its
+            return {**unseen, "snow": bounds["snow"], "temperature": baked}
+        return bounds | spared
     factor = 1.0
     if sensor is not None:
         table = build_band_table(sensor.band)
         factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest)
-    return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
+    return {name: replace(bound, value=factor * bound.value) for name, bound in (bounds | spared).items()}
 
 
 def _priced(situation: Situation) -> dict[str, Bound]:
@@ -197,14 +196,18 @@ def _priced(situation: Situation) -> dict[str, Bound]:
 
 
 def _spared(situation: Situation, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
-    """What need not be solved because no surface shows it: most of the time that a bake takes."""
+    """What need not be solved because no surface shows it, or no band: most of the time that a bake takes."""
     environment, whole = situation.environment, whole_scope(assignment.wall_types, settings).columns
     turned = EffectPlan(off=("spare_orientations",))
     seen = _scope(environment, assignment, scene, settings, turned).columns
     shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances"))
     samples, all_needed = environment.time.size, "a spline, the closest three and lobes are made from all of them"
     value, reason = _reflectance_worth(situation, assignment, settings, shown)
+    apart = situation.limits.greatest - situation.limits.coldest
     return {
+        "temperature": Bound(
+            value=apart, reason="asked for by name or by a plane of the frame", saves=march_cost(seen, samples)
+        ),
         "spare_orientations": Bound(
             value=0.0,
             reason=f"surfaces show {seen} of {whole} histories" if seen < whole else all_needed,
