@@ -220,7 +220,7 @@ def test_wall_transmits_and_stores_a_daily_swing_as_its_transfer_matrix(name: st
 @pytest.mark.parametrize("name", WALLS)
 def test_outside_face_follows_an_hourly_swing_as_its_transfer_matrix(name: str) -> None:
     """What an hour's swing sends through a wall is a thousandth and settles for days: only the outside is compared."""
-    grid = build_grid(reference_walls()[name], 15.0, step_fraction=0.25, day_fraction=0.1, growth=0.06)
+    grid = build_grid(reference_walls()[name], 15.0, cell_size=0.4)
     tso, _ = _swings(name, grid, hours=1, periods=30, inner=False)
     held = {"abs_Tso_over_Te": (abs(tso), False), "lead_Y_outer": (float(np.angle(1.0 - tso) / (2.0 * np.pi)), True)}
     _compare(name, 1, held)

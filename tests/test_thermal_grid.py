@@ -2,8 +2,10 @@ import numpy as np
 import pytest
 from wall_cases import gap, reference_walls, slab
 
+from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.materials import Layer, load_catalogue, load_construction
 from sensorsim.thermal import WallGrid, build_grid
+from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION
 
 
 def _stacks() -> dict[str, tuple[Layer, ...]]:
@@ -37,16 +39,22 @@ def test_cells_hold_exactly_the_layers_heat_and_resistance(step: float) -> None:
         assert np.all(np.diff(grid.depth) > 0.0), name
 
 
-def test_cells_grow_inward_in_the_diffusive_coordinate_and_are_finer_for_shorter_steps() -> None:
-    layer = slab(0.4, 1.0, 2000.0, 900.0)
-    root = np.sqrt(1.0 / (2000.0 * 900.0))
+@pytest.mark.parametrize("thickness", [0.1, 0.4, 10.0])
+def test_cells_grow_from_both_faces_in_the_diffusive_coordinate_and_are_finer_for_shorter_steps(
+    thickness: float,
+) -> None:
+    root, day = np.sqrt(1.0 / (2000.0 * 900.0)), np.sqrt(SECONDS_PER_DAY / np.pi)
     counts = []
     for step in STEPS:
-        thickness = build_grid([layer], step).capacity / (2000.0 * 900.0)
-        assert np.all(np.diff(thickness) > -1e-12)
-        assert thickness[0] < 0.45 * root * np.sqrt(step) * 1.2
-        counts.append(thickness.size)
+        size = build_grid([slab(thickness, 1.0, 2000.0, 900.0)], step).capacity / (2000.0 * 900.0) / root  # [s^0.5]
+        outer = np.concatenate([[0.0], np.cumsum(size)])
+        inner = outer[-1] - outer
+        finest, coarsest = min(STEP_FRACTION * np.sqrt(step), DAY_FRACTION * day), DAY_FRACTION * day
+        assert np.all(size <= 1.000001 * np.minimum(finest + GROWTH * outer[1:], coarsest + GROWTH * inner[:-1]))
+        assert np.sum(np.diff(np.sign(np.diff(size))) != 0) <= 2  # one largest cell, or two
+        counts.append(size.size)
     assert counts == sorted(counts, reverse=True)
+    assert counts[-1] <= np.log(thickness / root / (DAY_FRACTION * day)) * 2.0 / GROWTH + 1.0  # not with the thickness
 
 
 def _same(one: WallGrid, other: WallGrid) -> None:
@@ -88,6 +96,6 @@ def test_wall_of_resistances_has_no_cells() -> None:
 def test_finer_settings_refine_everywhere() -> None:
     layers = STACKS["brick"]
     coarse = build_grid(layers, 300.0)
-    fine = build_grid(layers, 300.0, step_fraction=0.2, day_fraction=0.075, growth=0.125)
+    fine = build_grid(layers, 300.0, cell_size=0.5)
     assert fine.capacity.size >= 2 * coarse.capacity.size - len(layers)
     assert fine.capacity.max() < 0.6 * coarse.capacity.max()

@@ -114,7 +114,7 @@ def test_solid_body_cools_as_its_series(shape: str, biot: float) -> None:
     step = 1e-3 * seconds
     count = 1001
     record = np.array([20, 50, 100, 200, 500, 1000])
-    grid = build_grid(body, step / 10.0, shape=shape, radius=radius, day_fraction=0.03, growth=0.1)
+    grid = build_grid(body, step / 10.0, shape=shape, radius=radius, cell_size=0.2)
     assert grid.interior_area == 0.0
     history = march(
         body, outdoors(constant(COLD, count), biot * conductivity / radius), indoors(constant(COLD, count), 5.0), DARK,

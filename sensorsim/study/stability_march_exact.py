@@ -15,15 +15,13 @@ from sensorsim.study.manufactured import (
 )
 from sensorsim.study.stability_model import Case
 from sensorsim.thermal import build_grid
-from sensorsim.thermal.grid import DAY_FRACTION, STEP_FRACTION
 from sensorsim.thermal.wall_steps import FINER
 
 WALLS = {"one layer": ONE_LAYER, "two layers": TWO_LAYERS}
 
 
 def _at_a_minute(layers: tuple[Layer, ...], finer: float) -> float:
-    grid = build_grid(layers, 60.0, step_fraction=finer * STEP_FRACTION, day_fraction=finer * DAY_FRACTION)
-    return march_error(layers, grid, 60.0)
+    return march_error(layers, build_grid(layers, 60.0, cell_size=finer), 60.0)
 
 
 def _order_in_space(layers: tuple[Layer, ...]) -> float:

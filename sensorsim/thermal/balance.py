@@ -55,7 +55,7 @@ A, B, C = 1.0 / 3.0, 2.0 / 9.0, 14.0 / 81.0  # of (1 - x)^(-1/3)
 def step_film(root: float, cubed: float) -> tuple[float, float]:
     """Inverse cube root by one step of fourth order from a near one, and how far it went; from afar it comes nearer."""
     lack = max(1.0 - cubed * (root * root * root), -1.0)
-    after = min(root * (1.0 + lack * (A + lack * (B + lack * C))), MOST_PER_FILM)
+    after = min(root + root * lack * ((A + lack * B) + lack * lack * C), MOST_PER_FILM)
     return after, A * abs(lack) if after < MOST_PER_FILM else 0.0
 
 
@@ -64,24 +64,25 @@ def newton(
     face: tuple[float, float], room_face: tuple[float, float], loads: Loads, latent: tuple[float, float],
     exchange: Exchange, grey: float, air: float, room: Room,
 ) -> tuple[float, float, float, float, float]:  # fmt: skip
-    """One step for both faces, which are temperature [C] and inverse film; returns both, and how far they went [K]."""
+    """One step for both faces, which are temperature [C] and inverse film; returns both, and how far they went [K].
+
+    What needs a film comes last in every sum, as films are known late: processors wait here more than they compute.
+    """
     a, b, c, d, _ = exchange
     room_air, radiation, room_cubed, free, room_grey = room
     absorbed, cubed, warmer, colder, left, right = loads
-    ext, old = face
-    inn, room_old = room_face
+    (ext, old), (inn, room_old) = face, room_face
     gap, room_gap = air - ext, room_air - inn
-    lift, room_lift = (warmer if gap < 0.0 else colder) * abs(gap), free * abs(room_gap)
+    lift, room_lift = max(colder * gap, -warmer * gap), free * abs(room_gap)
     cubed, room_cubed = cubed + lift, room_cubed + room_lift
     (root, turned), (room_root, room_turned) = step_film(old, cubed), step_film(room_old, room_cubed)
     square, room_square = root * root, room_root * room_root
-    film, room_film = cubed * square, room_cubed * room_square
     kelvin, room_kelvin = ext + ZERO_CELSIUS, inn + ZERO_CELSIUS
     cube, room_cube = grey * kelvin * (kelvin * kelvin), room_grey * room_kelvin * (room_kelvin * room_kelvin)
-    lack = absorbed + left + film * gap - cube * kelvin - a * ext + b * inn - latent[0]
-    room_lack = radiation + right + room_film * room_gap - room_cube * room_kelvin + c * ext - d * inn
-    slope = a + film + A * (lift * square) + 4.0 * cube + latent[1]
-    room_slope = d + room_film + A * (room_lift * room_square) + 4.0 * room_cube
+    lack = absorbed + left - latent[0] + b * inn - a * ext - cube * kelvin + cubed * gap * square
+    room_lack = radiation + right + c * ext - d * inn - room_cube * room_kelvin + room_cubed * room_gap * room_square
+    slope = a + latent[1] + 4.0 * cube + (cubed + A * lift) * square
+    room_slope = d + 4.0 * room_cube + (room_cubed + A * room_lift) * room_square
     scale = 1.0 / (slope * room_slope - b * c)
     move, room_move = (lack * room_slope + b * room_lack) * scale, (room_lack * slope + c * lack) * scale
     moved = abs(move) + abs(room_move) + turned * (abs(gap) + LEAST_GAP) + room_turned * (abs(room_gap) + LEAST_GAP)

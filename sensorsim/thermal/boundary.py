@@ -85,8 +85,7 @@ class Columns(NamedTuple):
 
     cells: FloatArray  # (n, m) [C]
     carried: FloatArray  # (10, m) by pairs of the exterior and the interior face, see the properties
-    orientation: NDArray[np.int64]  # (m,)
-    absorptance: FloatArray  # (m,)
+    absorptance: FloatArray  # (a,) of each orientation, whose columns follow one another
 
     @property
     def faces(self) -> FloatArray:

@@ -1,9 +1,10 @@
 """From layers to finite volumes: cells that hold heat, conductances between them, a face without capacity at each end.
 
 Cells are laid out in the diffusive coordinate, thickness over the square root of diffusivity [s^0.5], in which the
-penetration depth of a time scale is the same in every material: fine at the exterior at the scale of a step, growing
-inward to the scale of a day. Layers without capacity become pure resistances between cells. Cylinders and spheres are
-solved per unit of exterior area (see `shells`), so that steady radial conduction is exact with any number of cells.
+penetration depth of a time scale is the same in every material: fine at the scale of a step at the exterior face, of a
+day at the interior one, and growing linearly with the distance from either, as only slower changes get there. Layers
+without capacity become pure resistances between cells. Cylinders and spheres are solved per unit of exterior area (see
+`shells`), so that steady radial conduction is exact with any number of cells.
 Source: finite volumes of eq. 2 of [Report1978], interface by resistances in series [Patankar1980 ch. 4].
 """
 
@@ -19,9 +20,9 @@ from sensorsim.thermal.shells import Shells
 
 FloatArray = NDArray[np.float64]
 
-STEP_FRACTION = 0.4  # first cell over the penetration depth of a step
-DAY_FRACTION = 0.15  # thickest cell over the penetration depth of a day
-GROWTH = 0.25  # growth of cell thickness per depth
+STEP_FRACTION = 0.4  # outermost cell over the penetration depth of a step
+DAY_FRACTION = 0.12  # innermost cell over the penetration depth of a day
+GROWTH = 0.18  # growth of cell thickness per distance from a face
 
 
 class LayerLike(Protocol):
@@ -55,18 +56,18 @@ def build_grid(
     *,
     shape: str = "slab",
     radius: float | None = None,
-    step_fraction: float = STEP_FRACTION,
-    day_fraction: float = DAY_FRACTION,
-    growth: float = GROWTH,
+    cell_size: float = 1.0,
 ) -> WallGrid:
     """Finite volumes of `layers` for time steps of `step` [s]; layers of zero thickness are dropped.
 
     `shape` is 'slab', 'cylinder' or 'sphere', the curved ones with the `radius` [m] of the exterior face. Layers that
     reach the centre make it solid: no heat crosses its middle. A pure resistance is per unit of area where it stands.
+    `cell_size` is that of the cells, and of how they grow, over the usual [-].
     Raises InputError for an unknown shape, a missing radius, and layers thicker than the radius.
     """
     shells = Shells(shape=shape, radius=radius)
     pile = _Pile(shells)
+    sizes = _Sizes(step, cell_size, sum(_diffusive_span(layer) for layer in layers))
     diffusive = 0.0
     for layer in layers:
         if layer.resistance is not None:
@@ -75,14 +76,12 @@ def build_grid(
         heat = layer.density * layer.specific_heat
         if layer.thickness <= 0.0:
             continue
-        if heat <= 0.0:
+        span = _diffusive_span(layer)
+        if span <= 0.0:
             pile.resist(layer.thickness, shells.resistance(pile.position, layer.thickness) / layer.conductivity)
             continue
-        root = np.sqrt(layer.conductivity / heat)
-        span = layer.thickness / root
-        edges = _cell_edges(diffusive, span, step_fraction * np.sqrt(step), growth, day_fraction * _day_root())
-        for thickness in np.diff(edges) * root:
-            pile.add_cell(float(thickness), layer.conductivity, heat)
+        for share in np.diff(sizes.edges(diffusive, diffusive + span)) / span:
+            pile.add_cell(float(share) * layer.thickness, layer.conductivity, heat)
         diffusive += span
     return pile.grid()
 
@@ -124,25 +123,41 @@ class _Pile:
         )
 
 
-def _day_root() -> float:
-    return float(np.sqrt(SECONDS_PER_DAY / np.pi))
+def _diffusive_span(layer: LayerLike) -> float:
+    """Thickness of a layer [s^0.5]; zero for one that holds no heat."""
+    if layer.resistance is not None or layer.thickness <= 0.0:
+        return 0.0
+    return float(layer.thickness * np.sqrt(layer.density * layer.specific_heat / layer.conductivity))
 
 
-def _cell_edges(start: float, span: float, finest: float, growth: float, coarsest: float) -> FloatArray:
-    """Edges of a layer's cells [s^0.5]: cell size grows linearly with depth from `finest`, then stays at `coarsest`."""
-    finest = min(finest, 0.99 * coarsest)
-    turn = (coarsest - finest) / growth  # depth at which growth ends
-    cells_to_turn = np.log(coarsest / finest) / growth
+class _Sizes:
+    """How large cells are to be [s^0.5] at a depth [s^0.5]: the lesser of what either face allows."""
 
-    def cells_above(depth: float) -> float:
-        return float(np.log1p(growth * min(depth, turn) / finest) / growth + max(depth - turn, 0.0) / coarsest)
+    def __init__(self, step: float, cell_size: float, span: float) -> None:
+        innermost = cell_size * DAY_FRACTION * np.sqrt(SECONDS_PER_DAY / np.pi)
+        self.growth = cell_size * GROWTH
+        self.finest = min(cell_size * STEP_FRACTION * np.sqrt(step), innermost)
+        self.turn = min(0.5 * (span + (innermost - self.finest) / self.growth), span)  # where both rules say the same
+        self.largest = self.finest + self.growth * self.turn
+        self.cells_to_turn = np.log(self.largest / self.finest) / self.growth
 
-    first, last = cells_above(start), cells_above(start + span)
-    wanted = np.linspace(first, last, max(1, int(np.ceil(last - first - 1e-9))) + 1)
-    growing = finest / growth * np.expm1(growth * np.minimum(wanted, cells_to_turn))
-    edges = growing + coarsest * np.maximum(wanted - cells_to_turn, 0.0) - start
-    edges[0], edges[-1] = 0.0, span
-    return np.asarray(edges)
+    def edges(self, first: float, last: float) -> FloatArray:
+        """Edges [s^0.5] of whole cells from one depth to another."""
+        above, through = self._cells_above(first), self._cells_above(last)
+        edges = self._depth(np.linspace(above, through, max(1, int(np.ceil(through - above - 1e-9))) + 1))
+        edges[0], edges[-1] = first, last
+        return edges
+
+    def _cells_above(self, depth: float) -> float:
+        if depth <= self.turn:
+            return float(np.log1p(self.growth * depth / self.finest) / self.growth)
+        return float(self.cells_to_turn - np.log1p(-self.growth * (depth - self.turn) / self.largest) / self.growth)
+
+    def _depth(self, cells: FloatArray) -> FloatArray:
+        """Inverse of `_cells_above`."""
+        outer = self.finest / self.growth * np.expm1(self.growth * np.minimum(cells, self.cells_to_turn))
+        beyond = np.maximum(cells - self.cells_to_turn, 0.0)
+        return np.asarray(outer - self.largest / self.growth * np.expm1(-self.growth * beyond))
 
 
 def _inverse(resistance: float) -> float:

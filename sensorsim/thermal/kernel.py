@@ -32,7 +32,6 @@ from sensorsim.thermal.lanes import (
     INTERIOR_RISE,
     INTERIOR_RISE_BEFORE,
     INTERIOR_START,
-    LANES,
     LATER,
     LATER_FLUX,
     LATER_INTERIOR_FLUX,
@@ -45,12 +44,17 @@ from sensorsim.thermal.lanes import (
     START,
     SUN,
     WORK,
+    Group,
     Index,
     give,
+    group_at,
+    groups,
     inner,
+    lanes_for,
     note,
     room_for,
     scalar,
+    spread,
     take,
     wide,
 )
@@ -76,69 +80,69 @@ def advance(
     trace = NO_TRACE if trace is None else trace
     place = np.arange(1, cells.outward.shape[0] + 2, dtype=Index) * CELL  # before and beyond them an idle cell
     w, c = room_for(int(ALL)), room_for((place.size + 1) * int(CELL))
-    lane = np.zeros(LANES, dtype=Index)  # made out here, so that the compiled code does not know how many
-    return int(_advance(w, c, place, lane, columns, cells, damped, outside, inside, first, last, step, trace))
+    lanes = lanes_for(outside.irradiance.shape[1])
+    return int(_advance(lanes, w, c, place, columns, cells, damped, outside, inside, first, last, step, trace))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(
-    w: FloatArray, c: FloatArray, place: NDArray[Index], lane: NDArray[Index], columns: Columns, cells: Cells,
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], columns: Columns, cells: Cells,
     damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, by code that counts no references to arrays, which would take longer than a step."""
-    return _all(w, c, place, lane, columns, cells, damped, outside, inside, first, last, step, trace)
+    return _all(lanes, w, c, place, columns, cells, damped, outside, inside, first, last, step, trace)
 
 
 @inner
 def _all(
-    w: FloatArray, c: FloatArray, place: NDArray[Index], lane: NDArray[Index], columns: Columns, cells: Cells,
+    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], columns: Columns, cells: Cells,
     damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, a chunk at a time."""
-    lanes, failures = Index(lane.size), 0
+    wide()
+    failures = 0
     for start in range(first, last, CHUNK):
         stop = min(start + CHUNK, last)
-        for begin in range(0, columns.orientation.size, lane.size):
-            take(lanes, w, c, lane, columns, outside.free, outside.free_colder, begin)
-            sample(lanes, w, lane, outside, start)
+        for number in range(groups(columns, lanes)):
+            group = group_at(columns, lanes, number)
+            take(lanes, w, c, group, columns, outside.free, outside.free_colder)
+            sample(lanes, w, group, outside, start)
             eliminate(lanes, w, c, place, cells.outward, cells.exchange[0, 4])
             for k in range(start, stop):
-                sample(lanes, w, lane, outside, k + 1)
+                sample(lanes, w, group, outside, k + 1)
                 early, late = share(outside, inside, k), share(outside, inside, k + 1)
                 failures += _step(lanes, w, c, place, early, late, cells, damped, outside, inside, step)
                 if trace.row.size > 0 and trace.row[k + 1] >= 0:
-                    note(lanes, w, trace.faces[trace.row[k + 1]], begin)
-            give(lanes, w, c, columns, begin)
+                    note(w, trace.faces[trace.row[k + 1]], group)
+            give(w, c, group, columns)
     return failures
 
 
-@inner
-def sample(lanes: Index, w: FloatArray, lane: NDArray[Index], outside: Outside, k: int) -> None:
+@scalar
+def sample(lanes: Index, w: FloatArray, group: Group, outside: Outside, k: int) -> None:
     """The second sample of the last step becomes the first of the next, k its second; all lanes start from its end."""
-    wide()
-    irradiance, longwave, film, emissivity = outside.irradiance, outside.longwave, outside.film, outside.emissivity
     for j in range(lanes):
         w[START + j], w[INTERIOR_START + j] = w[EXTERIOR + j], w[INTERIOR + j]
     for j in range(LATER):
         w[ABSORBED + j] = w[LATER + ABSORBED + j]
-    for j in range(lanes):
-        o = lane[j]
-        sun, sky = irradiance[k, o], longwave[k, o]
-        w[LATER + SUN + j], w[LATER + LONGWAVE + j], w[LATER + FORCED + j] = sun, sky, film[k, o]
-        w[LATER + ABSORBED + j] = w[ABSORPTANCE + j] * sun + emissivity * sky
+    spread(lanes, w, LATER + SUN, outside.irradiance[k], group)
+    spread(lanes, w, LATER + LONGWAVE, outside.longwave[k], group)
+    spread(lanes, w, LATER + FORCED, outside.film[k], group)
     if outside.latent.shape[0] > 1:
-        for j in range(lanes):
-            w[LATER + EXCHANGE + j] = outside.latent[k, lane[j]]
+        spread(lanes, w, LATER + EXCHANGE, outside.latent[k], group)
+    for j in range(lanes):
+        absorbed = w[ABSORPTANCE + j] * w[LATER + SUN + j]
+        w[LATER + ABSORBED + j] = absorbed + outside.emissivity * w[LATER + LONGWAVE + j]
 
 
-@inner
+@scalar
 def share(outside: Outside, inside: Inside, k: int) -> Shared:
     """What all columns have in common at a sample."""
     air, room = outside.air[k] - ZERO_CELSIUS, inside.air[k] - ZERO_CELSIUS
     return (air, outside.vapour[k], room, inside.radiant[k], inside.film[k])
 
 
-@inner
+@scalar
 def _step(
     lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], early: Shared, late: Shared, cells: Cells,
     damped: Cells, outside: Outside, inside: Inside, step: float,
@@ -212,7 +216,7 @@ def room_at(early: Shared, late: Shared, at: float, free: float, grey: float) ->
     return (air, grey * radiant * radiant * radiant * radiant, film * film * film, free, grey)
 
 
-@inner
+@scalar
 def _faces(
     lanes: Index, w: FloatArray, early: Shared, late: Shared, outside: Outside, inside: Inside, exchange: Exchange,
     at: float, guess: Guess,

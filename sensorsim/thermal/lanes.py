@@ -6,18 +6,18 @@ overlap; and a number of lanes that the compiler does not know, or it would unro
 """
 
 from collections.abc import Callable
-from typing import Any, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
-from numpy.typing import NDArray
 
 from sensorsim.thermal.boundary import Columns, FloatArray
 
 F = TypeVar("F", bound=Callable[..., object])
 Index = np.uint64
-LANES = 32
+LANES = 32  # at most
+VECTOR = 8
 UNBOUNDED = 1e9  # [K], [W m-2]
 ROW = [Index(LANES * row) for row in range(52)]
 # What a column carries from step to step, in the order of `Columns.carried`, and what it never changes.
@@ -33,6 +33,15 @@ START, INTERIOR_START, LEAST, MOST, LOWEST, HIGHEST, MARK = ROW[36:43]
 KEPT, ALL = ROW[43], ROW[51]
 # Rows of each cell: now, as eliminated so far, before the step.
 NOW, WORK, OLD, CELL = ROW[0:4]
+
+
+class Group(NamedTuple):
+    """Orientations at one absorptance, which have a lane each: what acts on them lies side by side in memory."""
+
+    begin: Index  # first orientation
+    width: Index  # orientations
+    absorptances: Index  # that all orientations have
+    absorptance: Index  # which of them
 
 
 def inner(function: F) -> F:
@@ -81,48 +90,87 @@ def room_for(count: int) -> FloatArray:
     return room[first : first + count]
 
 
+def lanes_for(orientations: int) -> Index:
+    """Lanes of a block: whole vectors, and about as many in each of the blocks that it takes."""
+    blocks = -(-orientations // LANES)
+    return Index(VECTOR * -(-orientations // (VECTOR * blocks)))
+
+
+@scalar
+def column(group: Group, j: int) -> Index:
+    """Column of a lane; lanes beyond the last orientation repeat it."""
+    return (group.begin + min(Index(j), group.width - Index(1))) * group.absorptances + group.absorptance
+
+
+@scalar
+def groups(columns: Columns, lanes: Index) -> int:
+    """How many groups there are of all columns."""
+    absorptances = columns.absorptance.size
+    return int(-(-(columns.carried.shape[1] // absorptances) // int(lanes)) * absorptances)
+
+
+@scalar
+def group_at(columns: Columns, lanes: Index, number: int) -> Group:
+    """The group of a number; those of the same orientations, which the same acts on, follow one another."""
+    absorptances, begin = Index(columns.absorptance.size), Index(number // columns.absorptance.size) * lanes
+    width = min(lanes, Index(columns.carried.shape[1]) // absorptances - begin)
+    return Group(begin, width, absorptances, Index(number % columns.absorptance.size))
+
+
+@scalar
+def spread(lanes: Index, w: FloatArray, at: Index, values: FloatArray, group: Group) -> None:
+    """Values (o,) of a group's orientations into lanes."""
+    for j in range(group.width):
+        w[at + j] = values[group.begin + j]
+    last = w[at + group.width - Index(1)]
+    for j in range(group.width, lanes):
+        w[at + j] = last
+
+
 @inner
 def take(
-    lanes: Index, w: FloatArray, c: FloatArray, lane: NDArray[Index], columns: Columns, free: FloatArray,
-    free_colder: FloatArray, begin: int,
-) -> None:  # fmt: skip
-    """Columns from `begin` on into lanes; lanes beyond the last column repeat it."""
-    last = Index(columns.orientation.size - 1)
+    lanes: Index,
+    w: FloatArray,
+    c: FloatArray,
+    group: Group,
+    columns: Columns,
+    free: FloatArray,
+    free_colder: FloatArray,
+) -> None:
+    """Columns of a group into lanes."""
+    spread(lanes, w, FREE, free, group)
+    spread(lanes, w, FREE_COLDER, free_colder, group)
     for j in range(lanes):
-        k = min(Index(begin) + j, last)
-        lane[j] = columns.orientation[k]
-        w[FREE + j], w[FREE_COLDER + j] = free[lane[j]], free_colder[lane[j]]
-        w[ABSORPTANCE + j], w[LEAST + j], w[MOST + j] = columns.absorptance[k], UNBOUNDED, -UNBOUNDED
+        w[ABSORPTANCE + j], w[LEAST + j], w[MOST + j] = columns.absorptance[group.absorptance], UNBOUNDED, -UNBOUNDED
     for row in range(columns.carried.shape[0]):
         to, carried = Index(row) * Index(LANES), columns.carried[row]
         for j in range(lanes):
-            w[to + j] = carried[min(Index(begin) + j, last)]
+            w[to + j] = carried[column(group, j)]
     for i in range(columns.cells.shape[0]):
         at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
         for j in range(lanes):
-            c[at + j] = cells[min(Index(begin) + j, last)]
+            c[at + j] = cells[column(group, j)]
         for j in range(lanes):
             w[LEAST + j], w[MOST + j] = min(w[LEAST + j], c[at + j]), max(w[MOST + j], c[at + j])
 
 
 @inner
-def give(lanes: Index, w: FloatArray, c: FloatArray, columns: Columns, begin: int) -> None:
+def give(w: FloatArray, c: FloatArray, group: Group, columns: Columns) -> None:
     """Lanes back into columns."""
-    count, start = min(lanes, Index(columns.orientation.size - begin)), Index(begin)
     for row in range(columns.carried.shape[0]):
         at, carried = Index(row) * Index(LANES), columns.carried[row]
-        for j in range(count):
-            carried[start + j] = w[at + j]
+        for j in range(group.width):
+            carried[column(group, j)] = w[at + j]
     for i in range(columns.cells.shape[0]):
         at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
-        for j in range(count):
-            cells[start + j] = c[at + j]
+        for j in range(group.width):
+            cells[column(group, j)] = c[at + j]
 
 
 @inner
-def note(lanes: Index, w: FloatArray, faces: FloatArray, begin: int) -> None:
+def note(w: FloatArray, faces: FloatArray, group: Group) -> None:
     """Temperatures of both faces (2, m) [C] of one sample, as they are now."""
-    count, start = min(lanes, Index(faces.shape[1] - begin)), Index(begin)
     exterior, interior = faces[0], faces[1]
-    for j in range(count):
-        exterior[start + j], interior[start + j] = w[EXTERIOR + j], w[INTERIOR + j]
+    for j in range(group.width):
+        k = column(group, j)
+        exterior[k], interior[k] = w[EXTERIOR + j], w[INTERIOR + j]

@@ -113,7 +113,7 @@ def _plain(value: Any) -> Any:
 
 def _taken(columns: Columns, thaw: Thaw) -> FloatArray:
     """Latent heat (n + 1, m) [J m-2] that cells hold at the start: water of ice that is warmer than 0 C."""
-    taken = np.zeros((thaw.latent.size + 1, columns.orientation.size))
+    taken = np.zeros((thaw.latent.size + 1, columns.faces.shape[1]))
     if not thaw.drains:
         taken[:-1] = np.where(columns.cells > 0.0, thaw.latent[:, None], 0.0)
     return taken
@@ -129,7 +129,7 @@ def _march_through(run: _Run, record: np.ndarray) -> FloatArray:
     columns, last = run.columns, int(record[-1])
     row = np.full(run.outside.air.size, -1, dtype=np.int64)
     row[record] = np.arange(record.size)
-    faces = np.zeros((record.size, 2, columns.orientation.size))
+    faces = np.zeros((record.size, 2, columns.faces.shape[1]))
     faces[0] = columns.faces  # stays where the start is asked for
     failures = advance(columns, *run.walls, run.outside, run.inside, 0, last, run.step, Trace(row, faces))
     _require_settled(failures, faces, 0, last)
@@ -139,7 +139,7 @@ def _march_through(run: _Run, record: np.ndarray) -> FloatArray:
 def _march_by_samples(run: _Run, record: np.ndarray, grid: WallGrid, nodes: FloatArray | None) -> FloatArray:
     """Faces (r, 2, m) [C], of a solid wall its innermost cell, and nodes (r, n, m) [C] where asked for."""
     columns, sample = run.columns, 0
-    faces = np.zeros((record.size, 2, columns.orientation.size))
+    faces = np.zeros((record.size, 2, columns.faces.shape[1]))
     for row, wanted in enumerate(map(int, record)):
         if np.any(run.thaw.latent):
             failures = advance_melting(columns, run.taken, run.thaw, run.outside, run.inside, sample, wanted, run.step)
@@ -173,6 +173,5 @@ def _start(
     return Columns(
         cells=np.array(cells - ZERO_CELSIUS),
         carried=np.concatenate([faces, np.full((2, count), 0.2), np.zeros((6, count))]),
-        orientation=np.repeat(np.arange(outside.irradiance.shape[1]), absorptances.size),
-        absorptance=np.tile(absorptances, outside.irradiance.shape[1]),
+        absorptance=np.array(absorptances, dtype=np.float64),
     )

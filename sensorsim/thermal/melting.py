@@ -15,14 +15,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.thermal.balance import load
 from sensorsim.thermal.boundary import Columns, FloatArray, Inside, Outside
 from sensorsim.thermal.grid import LayerLike, WallGrid
 from sensorsim.thermal.kernel import DAMPED_GUESS, Shared, room_at, sample, settle, share
-from sensorsim.thermal.lanes import LANES, Index, give, inner, room_for, take
+from sensorsim.thermal.lanes import Group, Index, column, give, group_at, groups, inner, lanes_for, room_for, take
 from sensorsim.thermal.melting_cells import (
     MELTING_ROWS,
     TAKEN,
@@ -69,58 +68,59 @@ def advance_melting(
 
     `taken` (n + 1, m) [J m-2] is the latent heat that cells have taken up and, last, what has drained.
     """
-    w, lane = room_for(int(MELTING_ROWS)), np.zeros(LANES, dtype=Index)
-    return int(_advance(w, lane, block_of(wall), columns, taken, wall, outside, inside, first, last, step))
+    lanes, w = lanes_for(outside.irradiance.shape[1]), room_for(int(MELTING_ROWS))
+    return int(_advance(lanes, w, block_of(wall), columns, taken, wall, outside, inside, first, last, step))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _advance(
-    w: FloatArray, lane: NDArray[Index], block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
+    lanes: Index, w: FloatArray, block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
     outside: Outside, inside: Inside, first: int, last: int, step: float,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn, by code that counts no references to arrays."""
-    return _all(w, lane, block, columns, taken, wall, outside, inside, first, last, step)
+    return _all(lanes, w, block, columns, taken, wall, outside, inside, first, last, step)
 
 
 @inner
 def _all(
-    w: FloatArray, lane: NDArray[Index], block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
+    lanes: Index, w: FloatArray, block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
     outside: Outside, inside: Inside, first: int, last: int, step: float,
 ) -> int:  # fmt: skip
     """Steps of all blocks in turn."""
-    lanes, failures = Index(lane.size), 0
+    failures = 0
     factor_linear(wall, block, step)
-    for start in range(0, columns.orientation.size, lane.size):
-        take(lanes, w, block.c, lane, columns, outside.free, outside.free_colder, start)
-        _take(lanes, block, taken, start)
-        sample(lanes, w, lane, outside, first)
+    for number in range(groups(columns, lanes)):
+        group = group_at(columns, lanes, number)
+        take(lanes, w, block.c, group, columns, outside.free, outside.free_colder)
+        _take(lanes, block, taken, group)
+        sample(lanes, w, group, outside, first)
         for k in range(first, last):
-            sample(lanes, w, lane, outside, k + 1)
+            sample(lanes, w, group, outside, k + 1)
             failures += _step(lanes, w, block, share(outside, inside, k + 1), wall, outside, inside, step)
             settle(lanes, w, step)
-        give(lanes, w, block.c, columns, start)
-        _give(lanes, block, taken, start)
+        give(w, block.c, group, columns)
+        _give(block, taken, group)
     return failures
 
 
 @inner
-def _take(lanes: Index, block: Block, taken: FloatArray, start: int) -> None:
-    """Latent heat of columns from `start` on into lanes; lanes beyond the last column repeat it."""
-    p, last = block.spot.size - 1, Index(taken.shape[1] - 1)
+def _take(lanes: Index, block: Block, taken: FloatArray, group: Group) -> None:
+    """Latent heat of columns into lanes."""
+    p = block.spot.size - 1
     for i in range(p + 1):
         at, held = block.spot[i] + TAKEN, taken[i if i < p else taken.shape[0] - 1]
         for j in range(lanes):
-            block.v[at + j] = held[min(Index(start) + j, last)]
+            block.v[at + j] = held[column(group, j)]
 
 
 @inner
-def _give(lanes: Index, block: Block, taken: FloatArray, start: int) -> None:
+def _give(block: Block, taken: FloatArray, group: Group) -> None:
     """Latent heat of lanes back into columns."""
-    p, count = block.spot.size - 1, min(lanes, Index(taken.shape[1] - start))
+    p = block.spot.size - 1
     for i in range(p + 1):
         at, held = block.spot[i] + TAKEN, taken[i if i < p else taken.shape[0] - 1]
-        for j in range(count):
-            held[Index(start) + j] = block.v[at + j]
+        for j in range(group.width):
+            held[column(group, j)] = block.v[at + j]
 
 
 @inner

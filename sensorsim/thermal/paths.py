@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from sensorsim.thermal.boundary import Inside, Outside, inside_from, outside_from
-from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, FloatArray, LayerLike, WallGrid, build_grid
+from sensorsim.thermal.grid import FloatArray, LayerLike, WallGrid, build_grid
 from sensorsim.thermal.march import History, march
 from sensorsim.thermal.periodic_start import settled_cells
 
@@ -58,14 +58,12 @@ def wall_paths(wall: WallLike, step: float, *, cell_size: float = 1.0) -> tuple[
     """
     shares = [(path.fraction, path.layers) for path in wall.paths] or [(1.0, wall.layers)]
 
-    def grid(layers: Sequence[LayerLike]) -> WallGrid:
-        return build_grid(
-            layers, step, shape=wall.shape, radius=wall.radius, step_fraction=cell_size * STEP_FRACTION,
-            day_fraction=cell_size * DAY_FRACTION, growth=cell_size * GROWTH,
-        )  # fmt: skip
-
     return tuple(
-        GridPath(fraction=fraction, layers=layers, grid=grid(layers))
+        GridPath(
+            fraction=fraction,
+            layers=layers,
+            grid=build_grid(layers, step, shape=wall.shape, radius=wall.radius, cell_size=cell_size),
+        )
         for fraction, layers in sorted(shares, key=lambda share: -share[0])
     )
 

@@ -14,7 +14,7 @@ from sensorsim.errors import NumericsError
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
-from sensorsim.thermal.grid import DAY_FRACTION, GROWTH, STEP_FRACTION, LayerLike, WallGrid, build_grid
+from sensorsim.thermal.grid import LayerLike, WallGrid, build_grid
 from sensorsim.thermal.kernel import advance
 from sensorsim.thermal.wall_boundary import WallBoundary, WallSurface, conditions
 
@@ -34,7 +34,6 @@ class WallSteps:
         self.columns = Columns(
             cells=np.zeros((grid.capacity.size, 1)),
             carried=np.array([[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]]).T.copy(),
-            orientation=np.zeros(1, dtype=np.int64),
             absorptance=np.array([surface.absorptance]),
         )
         self._factors: dict[float, tuple[Cells, Cells]] = {}
@@ -108,15 +107,7 @@ def wall_grid(
 ) -> WallGrid:
     """Cells fine enough for the shortest step of a series."""
     shortest = max(float(np.min(np.diff(time) / counts)), FINEST)
-    return build_grid(
-        layers,
-        shortest,
-        shape=shape,
-        radius=radius,
-        step_fraction=FINER * STEP_FRACTION,
-        day_fraction=FINER * DAY_FRACTION,
-        growth=FINER * GROWTH,
-    )
+    return build_grid(layers, shortest, shape=shape, radius=radius, cell_size=FINER)
 
 
 def lay_out(
