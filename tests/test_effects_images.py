@@ -207,3 +207,23 @@ def test_every_pixel_from_tables_with_lobes_is_within_tolerance_of_all_effects(t
         assert full.world.tables.lobes is not None
         for hour in (6.0, 10.0, 14.5):
             compare(full, lean, ACROSS, hour)
+
+
+@pytest.mark.parametrize(
+    ("sensor", "left"), [("flir", "-atmosphere"), ("lltv", "-atmosphere"), ("lltv", "-atmosphere,-reflected_sun")]
+)
+def test_frames_for_display_alone_leave_out_air_and_sunlight_on_the_quick_road(
+    sensor: str, left: str, tmp_path: Path
+) -> None:
+    """Within a code of the whole frame, and unlike the frame that has them."""
+    baked = town(tmp_path, "auto", sensor)
+    shown = {}
+    for choice in ("all", f"all,{left}"):
+        chosen = replace(baked, choice=read_choice(choice))
+        with Renderer(chosen, load_sensor(sensor), size=SIZE) as renderer:
+            whole = renderer.render(ACROSS, 36000.0)
+            quick = renderer.render(ACROSS, 36000.0, planes=("display",), display=whole.display)
+            assert renderer._quick is not None
+        assert np.abs(quick.planes["display"].astype(int) - whole.planes["display"]).max() <= 1
+        shown[choice] = quick.planes["display"].astype(int)
+    assert np.abs(np.subtract(*shown.values())).max() > 3

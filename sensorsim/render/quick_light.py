@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.environment import clear_path
 from sensorsim.radiometry import BandTable
 from sensorsim.render.air_kernel import GENTLE
 from sensorsim.render.camera import Camera
@@ -85,7 +86,9 @@ class QuickLight:
 
 
 def _air_terms(illumination: Illumination, camera: Camera, most: float) -> tuple[Single, NDArray[np.float64]]:
-    """Terms (k, 7) of the air for rises of `most` [m], and direction of the sun with the asymmetry (4,)."""
+    """Terms (k, 7) of the air for rises of `most` [m], none of none; direction of the sun with the asymmetry (4,)."""
+    if illumination.air is clear_path():
+        return np.zeros((0, 7), np.float32), np.append(illumination.sun_direction, 0.0)
     height = float(camera.position[2])
     air = illumination.air.seen_from(height)
     source, slope = air.source_at(height)

@@ -19,7 +19,7 @@ from sensorsim.render.camera import Camera
 from sensorsim.render.detail import DetailRule
 from sensorsim.render.display_stage import DisplayStage
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
-from sensorsim.render.illumination import Illumination, illuminate, seen_with
+from sensorsim.render.illumination import LIGHT, Illumination, illuminate, seen_with
 from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.nearest import Nearest
@@ -109,8 +109,9 @@ class Renderer:
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, material (its
         code), in emissive bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1] and
         raw counts, of the frame of that number; all that the effects leave, or those asked for. Display alone takes a
-        quicker road where no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces
-        that of the moment. `solids` stand among the surfaces; their ids follow on those of the scene.
+        quicker road where no effect is refused but air and direct light: see `quick_frame`; its codes may differ by
+        one. `illumination` replaces that of the moment. `solids` stand among the surfaces; their ids follow on those of
+        the scene.
         """
         wanted = wanted_planes(self.sensor, planes)
         if illumination is None:
@@ -122,6 +123,7 @@ class Renderer:
             road, ledger = self._quick_road() if wanted == {"display"} else None, None
             self._level.look(camera, None if self._quick is None else self._quick.frame)
             if road is not None:
+                illumination = seen_with(illumination, self._unlit)
                 codes, settings = road.show(camera, time_of_day, illumination, chosen, frame, solids, self.watch)
                 found: dict[str, NDArray[Any]] = {"display": codes}
             else:
@@ -172,7 +174,8 @@ class Renderer:
         self._programs = Programs(ctx, buffers, self._moment.generated, emissive=emissive)
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
-        self._may_be_quick = all(choice.asked(one.name) is not False for one in EFFECTS if one.stage != SURFACE)
+        left = {one.name for one in EFFECTS if one.stage != SURFACE and choice.asked(one.name) is False}
+        self._may_be_quick, self._unlit = left <= set(LIGHT), EffectPlan(off=tuple(left.intersection(LIGHT)))
         self._solids = SolidPass(ctx, self.world.scene.surfaces.area.size)
         self._build_targets()
 
