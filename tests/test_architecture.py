@@ -5,6 +5,7 @@ lines in the file counts, blank lines and comments included.
 """
 
 import ast
+import collections
 import importlib
 import json
 import re
@@ -57,7 +58,8 @@ DATA_FORMATS: Mapping[str, Callable[[str], object]] = {
     ".json": json.loads,
     ".geojson": json.loads,
 }
-KEY = re.compile(r"[A-Z][A-Za-z-]{2,}\d{3,4}[a-z]?")
+PROSE = {".py", ".toml", ".csv", ".geojson", ".frag", ".vert", ".glsl", ".bib", ".md"}
+KEY = re.compile(r"[A-Z][A-Za-z]+\d{1,5}[a-z]?")
 
 
 def _files(*tops: str) -> list[Path]:
@@ -372,6 +374,16 @@ def test_every_source_named_is_in_the_bibliography_once() -> None:
     )
     assert sorted({key for key in entries if entries.count(key) > 1}) == []
     assert {key: sorted(files) for key, files in _used_keys().items() if key not in entries} == {}
+
+
+def test_every_entry_of_the_bibliography_is_named_somewhere() -> None:
+    """In code, shaders, data, tests or tools, or in the note of another entry."""
+    bibliography = ROOT / "assets" / "references.bib"
+    entries = re.findall(r"^@\w+\{([^,\s]+)", bibliography.read_text("utf-8"), re.MULTILINE)
+    folders = ("assets", "sensorsim", "shaders", "tests", "tools")
+    texts = [path.read_text("utf-8") for folder in folders for path in _files(folder) if path.suffix in PROSE]
+    words = collections.Counter(re.findall(r"\w+", "\n".join(texts)))
+    assert [key for key in entries if words[key] < 2] == []
 
 
 def test_keys_are_found_in_prose_and_shapes_are_not() -> None:

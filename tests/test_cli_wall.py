@@ -198,6 +198,7 @@ def test_construction_of_ones_own_needs_no_names(run: Run, tmp_path: Path) -> No
     assert (tmp_path / "new" / "out.csv").exists()
 
 
+PERFECT_FOAM = "[[layer]]\nthickness = 0.1\nconductivity = 1e-10\ndensity = 1000\nspecific_heat = 1000\n"
 STUDS = """shape = "slab"
 [path]
 panel = 0.85
@@ -250,6 +251,14 @@ def test_studs_and_curved_walls_are_marched_plotted_and_told(call: Run, tmp_path
     assert all(np.all(np.isfinite(values)) for values in result.values())
 
 
+def test_foam_that_hardly_conducts_takes_few_nodes(call: Run, tmp_path: Path) -> None:
+    """Rationale: a day reaches a tenth of a micrometre into it; cells grow from there. Expected: below a thousand."""
+    (tmp_path / "stack.toml").write_text(PERFECT_FOAM)
+    code, out, _ = call(GOOD, *REST, "--construction", tmp_path / "stack.toml", "--json")
+    assert code == 0
+    assert json.loads(out)["nodes"] < 1000
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -281,6 +290,7 @@ BAD: dict[str, tuple[str, tuple[str, ...], str]] = {
     "semicolons": (ROWS.replace(",", ";"), REST, "line 1: columns = 'time;air_temperature': no column `time`"),
     "NaN": (ROWS.replace("11", "nan"), REST, "line 3: air_temperature = 'nan': not a finite number; fill the gap"),
     "text": (ROWS.replace("11", "warm"), REST, "line 3: air_temperature = 'warm': not a number; fill the gap"),
+    "comma for a point": (ROWS.replace("11", '"11,5"'), REST, "air_temperature = '11,5': not a number; write a point"),
     "nothing": (ROWS.replace("11", ""), REST, "line 3: air_temperature = '': empty; fill the gap"),
     "kelvin": (ROWS.replace("11", "284"), REST, "line 3: air_temperature = '284': above 150 C; check that"),
     "short row": (ROWS.replace(",11", ""), REST, "line 3: row = '600': 1 cells under 2 columns"),
@@ -302,6 +312,8 @@ BAD: dict[str, tuple[str, tuple[str, ...], str]] = {
         ("--air-temperature", "5", *REST), "line 3: beam = '-3': a negative irradiance; set the night's",
     ),
     "negative film": (ROWS, (*REST, "--exterior-film", "-1"), "constant: --exterior-film = -1.0: a negative film"),
+    "film beyond all": (ROWS, (*REST, "--interior-film", "1e300"), "--interior-film = 1e+300: above 1e+09 W m-2 K-1"),
+    "joules an hour": (ROWS, (*REST, "--beam", "2.5e6"), "constant: --beam = 2500000.0: above 100000 W m-2; give"),
     "infinite constant": (ROWS, (*REST, "--beam", "inf"), "constant: --beam = inf: not a finite number"),
     "missing": (ROWS, REST[2:], "in.csv: column = 'sky_temperature': missing; add the column [C], or give --sky-temp"),
     "missing film": (ROWS, REST[:-2], "column = 'interior_film': missing; add the column [W m-2 K-1], or give"),
@@ -324,6 +336,7 @@ BAD: dict[str, tuple[str, tuple[str, ...], str]] = {
     "absorptance": (ROWS, (*REST, "--absorptance", "1.5"), "command line: --absorptance = 1.5: not from 0 to 1"),
     "emissivity": (ROWS, (*REST, "--emissivity", "nan"), "command line: --emissivity = nan: not from 0 to 1"),
     "step": (ROWS, (*REST, "--step", "0"), "command line: --step = 0.0: not a number above 0"),
+    "step far too short": (ROWS, (*REST, "--step", "1e-9"), "wall: step = 1e-09: 6e+11 of them between two samples"),
     "start": (ROWS, (*REST, "--start", "cold"), "wall: start = 'cold': unknown; use one of auto, linear"),
     "short for periodic": (ROWS, (*REST, "--start", "periodic"), "the series covers less than a day; use the steady"),
     "kind of figure": (ROWS, (*REST, "--plot", "x.jpeg"), "--plot = 'x.jpeg': unknown kind of file; use .png"),

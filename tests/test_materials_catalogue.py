@@ -135,6 +135,12 @@ def test_surfaces_obey_the_energy_law(catalogue: Catalogue) -> None:
         assert material.solar_reflectance >= 0.18 * material.reflectance_nir.value
 
 
+def test_snow_conducts_as_its_density_says(catalogue: Catalogue) -> None:
+    """k = 2.22362 rho^1.885, rho in Mg m-3 [Yen1981]."""
+    snow = catalogue.material(SNOW).construction.layers[0]
+    assert snow.conductivity == pytest.approx(2.22362 * (snow.density / 1000.0) ** 1.885, rel=0.005)
+
+
 def test_only_glass_and_screen_let_the_sun_through(catalogue: Catalogue) -> None:
     through = {code for code, material in catalogue.materials.items() if material.solar_transmittance.value > 0.0}
     assert through == set(range(40, 47))

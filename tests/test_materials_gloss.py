@@ -37,7 +37,7 @@ def test_fresnel_has_its_closed_forms() -> None:
 # Emissivity in 8-14 um at angles [deg] from the normal: Fresnel's equations on tabulated indices, band mean.
 MEASURED = {
     "water": ((0.0, 50.0, 60.0, 70.0, 75.0, 80.0, 85.0), (0.985, 0.973, 0.947, 0.874, 0.796, 0.66, 0.42), 0.006),
-    "glass": ((0.0, 60.0, 70.0, 80.0), (0.885, 0.818, 0.728, 0.522), 0.03),
+    "glass": ((0.0, 50.0, 60.0, 70.0, 75.0, 80.0, 85.0), (0.880, 0.840, 0.786, 0.686, 0.604, 0.484, 0.300), 0.003),
 }
 
 
@@ -48,6 +48,16 @@ def test_emissivity_falls_with_the_angle_as_the_indices_say(name: str) -> None:
     assert gloss.normal_emissivity is not None
     found = gloss.emissivity(np.full(len(angle), gloss.normal_emissivity), np.cos(np.radians(angle)))
     assert np.abs(found - expected).max() <= margin
+
+
+def test_index_of_glass_in_the_near_infrared_is_the_formula_for_clear_panes() -> None:
+    """n = 1.5130 - 0.003169 l2 + 0.003962 / l2 [Rubin1985], and both faces of a pane of it."""
+    wave = np.linspace(0.8, 1.1, 301)
+    face = (
+        (1.5130 - 0.003169 * wave**2 + 0.003962 / wave**2 - 1.0) / (2.5130 - 0.003169 * wave**2 + 0.003962 / wave**2)
+    ) ** 2
+    pane = np.mean(face + face * (1.0 - face) ** 2 / (1.0 - face**2))
+    assert _kind("glass")[1].nir.highest == pytest.approx(pane, abs=1e-4)
 
 
 @pytest.mark.parametrize("gloss", load_gloss(), ids=lambda gloss: gloss.name)

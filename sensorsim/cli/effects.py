@@ -39,7 +39,7 @@ def effects(
     camera: Annotated[str | None, typer.Option(help="Camera as `render` takes it.")] = None,
     field_of_view: Annotated[float | None, typer.Option(help="Horizontal field of view [deg].")] = None,
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; the sensor's own if left out.")] = None,
-    weather: Annotated[str | None, typer.Option(help="winter, summer, fall or a CSV file.")] = None,
+    weather: Annotated[str | None, typer.Option(help="winter, summer, fall, or a CSV, TMY3 or EPW file.")] = None,
     atmosphere: Atmosphere = DEFAULT_ATMOSPHERE,
     visibility: Visibility = DEFAULT_VISIBILITY / 1000.0,
     aerosol: Aerosol = "rural",

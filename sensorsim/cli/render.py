@@ -62,7 +62,7 @@ def render(
     field_of_view: Annotated[float | None, typer.Option(help="Horizontal field of view [deg].")] = None,
     size: Annotated[str | None, typer.Option(help="WIDTHxHEIGHT in pixels; the sensor's own if left out.")] = None,
     weather: Annotated[
-        str | None, typer.Option(help="winter, summer, fall or a CSV file; by date if left out.")
+        str | None, typer.Option(help="winter, summer, fall, or a CSV, TMY3 or EPW file; by date if left out.")
     ] = None,
     planes: Annotated[str, typer.Option(help="Planes to write beside the picture, with commas between.")] = "",
     plane_format: Annotated[

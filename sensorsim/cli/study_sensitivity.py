@@ -34,13 +34,13 @@ def sensitivity(
 
 def _show(study: Sequence[Sensitivity], out: Path) -> None:
     console = Console(highlight=False, soft_wrap=True)
-    table = Table(title="rms change of surface temperature [K]", title_justify="left")
-    table.add_column("input")
+    table = Table(title="rms change of surface temperature [K]", title_justify="left", box=None, padding=(0, 1, 0, 0))
+    table.add_column("input", no_wrap=True)
     for found in study:
         table.add_column(escape(found.specimen.name), justify="right")
     rows = [{effect.input.name: effect.rms for effect in (*found.effects, found.solver, found.fit)} for found in study]
     for name in sorted(rows[0], key=lambda name: -max(row[name] for row in rows)):
-        table.add_row(escape(name), *(f"{row[name]:.2g}" for row in rows))
+        table.add_row(escape(name), *(f"{row[name]:.3f}" for row in rows))
     console.print(table)
     for found in study:
         console.print(escape(sentence(found)))

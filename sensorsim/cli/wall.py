@@ -117,7 +117,7 @@ def start_notes(history: WallHistory) -> list[str]:
             f"further ones would by {start.left:.1e} K"
         )
         if not start.settled:
-            notes.append(f"the start is not settled to {SETTLED:g} K: raise --lead-in above {start.days} days")
+            notes.append(f"the start is not settled to {SETTLED:g} K: raise --lead-in above {days}")
         return notes
     after = f", then the first day repeated over {days}" if start.days else ""
     notes.append(f"start: {_KINDS[start.kind]}{after}")

@@ -131,7 +131,8 @@ def _whole(table: HourlyYear, values: FloatArray, column: str) -> FloatArray:
         row = int(np.argmax(wrong))
         where = f"{table.path}:{table.first_line + row}"
         missing = bool(np.isnan(values[row]))
-        problem = f"{'missing' if missing else 'out of range'} here and in {int(wrong.sum()) - 1} other rows"
+        others = int(wrong.sum()) - 1
+        problem = f"{'missing' if missing else 'out of range'} here" + (f" and in {others} more rows" if others else "")
         raise InputError(
             where, column, None if missing else float(values[row]), problem, "fill it or take another file"
         )

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from sensorsim.constants import ZERO_CELSIUS
 
 FloatArray = NDArray[np.float64]
-WATER_VAPOUR_GAS_CONSTANT = 461.52  # [J kg-1 K-1]
+WATER_VAPOUR_GAS_CONSTANT = 461.52  # [J kg-1 K-1] R / (18.0153 g mol-1) [CODATA2018]
 
 
 def saturation_vapour_pressure(air_temperature: FloatArray) -> FloatArray:

@@ -5,15 +5,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from sensorsim.materials.entry import NOT_NEGATIVE, POSITIVE, SHARE, UNSOURCED, Bounds, Entry, Quantity, read_toml
+from sensorsim.materials.entry import POSITIVE, SHARE, UNSOURCED, Bounds, Entry, Quantity, read_toml
 
 Substances = Mapping[str, Mapping[str, Any]]  # layer defaults by name
 
 SHAPES = ("slab", "cylinder", "sphere")
 STACK_KEYS = ("layer", "path", "shape", "radius")  # what `read_stack` reads
 
+THICKEST = 50.0  # [m] of a layer: what lies above is a millimetre taken for a metre
+
 _MASS_BOUNDS: Mapping[str, Bounds] = {
-    "thickness": NOT_NEGATIVE,
+    "thickness": Bounds(low=0.0, high=THICKEST, open_low=False, text=f"a number of 0 to {THICKEST:g}, in metres"),
     "conductivity": POSITIVE,
     "density": POSITIVE,
     "specific_heat": POSITIVE,

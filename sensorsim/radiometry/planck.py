@@ -1,4 +1,4 @@
-"""Planck's law for spectral radiance and its slope in temperature [Report1978] eq. 11.
+"""Planck's law for spectral radiance and its slope in temperature [Planck1901], [Report1978] eq. 11.
 
 The report prints c1 = 0.59544e-12 W cm2, which is h c^2 (5.9552e-17 W m2). Hemispherical exitance needs 2 pi h c^2 and
 radiance, which is what a sensor collects per steradian, needs 2 h c^2 = 1.191043e-16 W m2 sr-1. This module uses the

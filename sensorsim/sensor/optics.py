@@ -42,5 +42,5 @@ class Optics:
 
     @property
     def light_share(self) -> float:
-        """Irradiance on the focal plane over radiance [sr]: pi tau (1 - o^2) / (1 + 4 F^2) [Holst2000]."""
+        """Irradiance on the focal plane over radiance [sr]: pi tau (1 - o^2) / (1 + 4 F^2) [PyBSM2025]."""
         return math.pi * self.transmission * (1.0 - self.obscuration**2) / (1.0 + 4.0 * self.f_number**2)

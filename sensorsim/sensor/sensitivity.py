@@ -3,7 +3,7 @@
 A band's response is per unit of energy, so that the electrons of a photon detector are proportional to band radiance
 exactly: N = t A Omega eta lambda_p / (h c) L, with the quantum efficiency eta at the peak's wavelength lambda_p. The
 variance of one look, referred to radiance, is a straight line in radiance: shot noise over what is always there.
-Sources: [Holst2000] for photon detectors, [Lloyd1975] for D*.
+Photon detectors as in [PyBSM2025]; D* by its definition, sqrt(area bandwidth) over the power that equals the noise.
 """
 
 import math

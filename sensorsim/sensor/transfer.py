@@ -1,7 +1,8 @@
 """Optical transfer functions in closed form: contrast that is left of a sine wave of `f` cycles per radian.
 
-All take frequencies of any shape and are 1 at frequency 0. Sources: [ONeill1956] for obscured pupils, [Hopkins1955] for
-defocus, [Holst2000] for the rest.
+All take frequencies of any shape and are 1 at frequency 0. Obscured pupils after [ONeill1956], defocus after
+[Hopkins1955]: both were put together anew and are held to sums over two shifted pupils. The rest are transforms of
+their own profiles, as in [PyBSM2025].
 """
 
 import numpy as np

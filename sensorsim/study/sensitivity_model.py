@@ -11,11 +11,12 @@ from sensorsim.constants import SECONDS_PER_HOUR
 from sensorsim.environment import Environment, Weather, build_environment
 from sensorsim.materials import WallType
 from sensorsim.thermal import build_interior, expose, ground_temperature, march_paths, surface_boundary
+from sensorsim.thermal.lead_in import lead_in_of
 from sensorsim.thermal.natural import melting_depth
 
 FloatArray = NDArray[np.float64]
 
-LEAD_IN = 2.0  # [day] after which brick has forgotten its start to 0.05 K
+LEAD_IN = 2.0  # [day] after which brick has forgotten its start to 0.05 K; soil has not, and begins periodically
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -86,11 +87,16 @@ def with_environment(setup: Setup, environment: Environment) -> Setup:
 
 def _soil(environment: Environment, ground: WallType, tilt: float) -> FloatArray:
     """Temperature (t,) [K] of the ground before a surface; one that is level sees none, and is given the air's."""
-    return environment.air_temperature if tilt == 0.0 else ground_temperature(environment, ground)
+    if tilt == 0.0:
+        return environment.air_temperature
+    return ground_temperature(environment, ground, repeated=lead_in_of(ground, environment, own=True).repeated)
 
 
 def surface_history(setup: Setup) -> FloatArray:
-    """Surface temperature (n,) [K] from midnight to midnight of the image day, at the environment's step."""
+    """Surface temperature (n,) [K] from midnight to midnight of the image day, at the environment's step.
+
+    A wall that remembers more than the lead-in begins periodically, as in a bake.
+    """
     environment, wall = setup.environment, setup.wall
     outside = surface_boundary(environment, expose(environment, normal_of(setup), setup.soil), wall)
     outside = outside._replace(
@@ -109,6 +115,7 @@ def surface_history(setup: Setup) -> FloatArray:
     history = march_paths(
         wall, outside, inside, np.array([1.0 - setup.reflectance]), step=environment.step,
         record=np.arange(window.start, window.stop), melting_depth=melting_depth(wall),
+        repeated=lead_in_of(wall, environment, own=True).repeated,
     )  # fmt: skip
     return np.asarray(history.exterior[:, 0, 0])
 

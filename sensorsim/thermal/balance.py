@@ -32,6 +32,7 @@ from sensorsim.thermal.lanes import (
     RISE_BEFORE,
     START,
     UNBOUNDED,
+    VAPOUR_EXCHANGE,
     Index,
     inner,
     scalar,
@@ -95,77 +96,112 @@ def ahead(start: float, stage: float, rise: float, before: float, guess: Guess) 
     return start + guess[0] * (stage - start) + guess[1] * rise + guess[2] * before
 
 
+@scalar
+def evaporation(temperature: float, exchange: float, vapour: float) -> tuple[float, float]:
+    """Latent heat [W m-2] that leaves a wet face and its slope per kelvin of it."""
+    t = max(temperature, COLDEST_WATER)
+    high = 3.031240396e-4 + t * (2.034080948e-6 + t * 6.136820929e-9)
+    pressure = 610.7799961 + t * (44.36518521 + t * (1.428945805 + t * (2.650648471e-2 + t * high)))
+    high = 4.0 * 3.031240396e-4 + t * (5.0 * 2.034080948e-6 + t * 6.0 * 6.136820929e-9)
+    rise = 44.36518521 + t * (2.0 * 1.428945805 + t * (3.0 * 2.650648471e-2 + t * high))
+    return exchange * (pressure - vapour), exchange * max(rise, 0.0)
+
+
 @inner
-def load(lanes: Index, w: FloatArray, at: float, guess: Guess) -> int:
-    """What acts on the exterior face at a fraction `at` of the step, where both are looked for; returns all lanes."""
+def load(lanes: Index, w: FloatArray, at: float, guess: Guess) -> None:
+    """What acts on the exterior face at a fraction `at` of the step, where both are looked for."""
+    wide()
     rest = 1.0 - at
     for j in range(lanes):
         ext, inn = w[EXTERIOR + j], w[INTERIOR + j]
         forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
         w[FILM_CUBED + j], w[MOVED + j] = forced * forced * forced, UNBOUNDED
         w[LOAD + j] = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j]
+        w[VAPOUR_EXCHANGE + j] = rest * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j]
         w[EXTERIOR + j] = ahead(w[START + j], ext, w[RISE + j], w[RISE_BEFORE + j], guess)
         w[INTERIOR + j] = ahead(
             w[INTERIOR_START + j], inn, w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess
         )  # fmt: skip
-    return int(lanes)
+
+
+@scalar
+def leap_lane(
+    w: FloatArray, j: int, exchange: Exchange, grey: float, air: float, vapour: float, room: Room, wet: bool, at: float,
+    guess: Guess,
+) -> int:  # fmt: skip
+    """As `load`, and two Newton steps of both faces of one lane; returns whether it has to go on."""
+    rest = 1.0 - at
+    forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
+    absorbed, cubed = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j], forced * forced * forced
+    ext = ahead(w[START + j], w[EXTERIOR + j], w[RISE + j], w[RISE_BEFORE + j], guess)
+    inn = ahead(w[INTERIOR_START + j], w[INTERIOR + j], w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess)
+    loads = (absorbed, cubed, w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
+    steam = rest * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j] if wet else 0.0
+    latent = evaporation(ext, steam, vapour) if wet else (0.0, 0.0)
+    face, room_face = (ext, w[PER_FILM + j]), (inn, w[INTERIOR_PER_FILM + j])
+    ext, inn, root, room_root, moved = newton(face, room_face, loads, latent, exchange, grey, air, room)
+    latent = evaporation(ext, steam, vapour) if wet else (0.0, 0.0)
+    face, room_face = (ext, root), (inn, room_root)
+    ext, inn, root, room_root, moved = newton(face, room_face, loads, latent, exchange, grey, air, room)
+    w[EXTERIOR + j], w[INTERIOR + j], w[PER_FILM + j], w[INTERIOR_PER_FILM + j] = ext, inn, root, room_root
+    w[LOAD + j], w[FILM_CUBED + j], w[VAPOUR_EXCHANGE + j], w[MOVED + j] = absorbed, cubed, steam, moved
+    return 0 if moved <= TOLERANCE else 1
 
 
 @inner
 def leap(
     lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, room: Room, at: float, guess: Guess
 ) -> int:
-    """As `load`, and two steps of all lanes, where nothing evaporates; returns how many lanes have to go on."""
+    """Two Newton steps of all lanes where nothing evaporates; returns how many have to go on."""
     wide()
-    rest, dry, moving = 1.0 - at, (0.0, 0.0), 0
+    moving = 0
     for j in range(lanes):
-        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
-        absorbed, cubed = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j], forced * forced * forced
-        ext = ahead(w[START + j], w[EXTERIOR + j], w[RISE + j], w[RISE_BEFORE + j], guess)
-        inn = ahead(
-            w[INTERIOR_START + j], w[INTERIOR + j], w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess
-        )  # fmt: skip
-        loads = (absorbed, cubed, w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
-        face, room_face = (ext, w[PER_FILM + j]), (inn, w[INTERIOR_PER_FILM + j])
-        ext, inn, root, room_root, moved = newton(face, room_face, loads, dry, exchange, grey, air, room)
-        face, room_face = (ext, root), (inn, room_root)
-        ext, inn, root, room_root, moved = newton(face, room_face, loads, dry, exchange, grey, air, room)
-        w[EXTERIOR + j], w[INTERIOR + j], w[PER_FILM + j], w[INTERIOR_PER_FILM + j] = ext, inn, root, room_root
-        w[LOAD + j], w[FILM_CUBED + j], w[MOVED + j] = absorbed, cubed, moved
-        moving += 0 if moved <= TOLERANCE else 1
+        moving += leap_lane(w, j, exchange, grey, air, 0.0, room, False, at, guess)
     return moving
 
 
 @inner
+def leap_wet(
+    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, vapour: float, room: Room, at: float,
+    guess: Guess,
+) -> int:  # fmt: skip
+    """Two Newton steps of all lanes where water evaporates; returns how many have to go on."""
+    wide()
+    moving = 0
+    for j in range(lanes):
+        moving += leap_lane(w, j, exchange, grey, air, vapour, room, True, at, guess)
+    return moving
+
+
+@scalar
 def balance(
     lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, vapour: float, room: Room, wet: bool,
-    at: float, moving: int,
+    at: float, guess: Guess,
 ) -> int:  # fmt: skip
-    """Bring both faces of the lanes that still move, if any do, into balance; returns how many did not get there.
-
-    Wet ones have not yet taken the two steps that all take.
-    """
-    rounds, sure = 0, 2 if wet else 0
-    while (moving > 0 or rounds < sure) and rounds < ITERATION_LIMIT:
-        if wet:
-            evaporate(lanes, w, vapour, at)
-        moving = _approach(lanes, w, exchange, grey, air, room, TOLERANCE if rounds >= sure else -1.0)
+    """Bring both faces of all lanes into balance at a fraction `at` of a step; returns how many did not get there."""
+    if wet:
+        moving = leap_wet(lanes, w, exchange, grey, air, vapour, room, at, guess)
+    else:
+        moving = leap(lanes, w, exchange, grey, air, room, at, guess)
+    rounds = 2
+    while moving > 0 and rounds < ITERATION_LIMIT:
+        moving = approach(lanes, w, exchange, grey, air, vapour, room, wet)
         rounds += 1
     return moving
 
 
 @inner
-def _approach(
-    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, room: Room, still_below: float
+def approach(
+    lanes: Index, w: FloatArray, exchange: Exchange, grey: float, air: float, vapour: float, room: Room, wet: bool
 ) -> int:
     """One Newton step of both faces of the lanes that still move, whether or not others do; returns how many go on."""
     wide()
     moving = 0
     for j in range(lanes):
-        still = w[MOVED + j] <= still_below
+        still = w[MOVED + j] <= TOLERANCE
         face, room_face = (w[EXTERIOR + j], w[PER_FILM + j]), (w[INTERIOR + j], w[INTERIOR_PER_FILM + j])
         loads = (w[LOAD + j], w[FILM_CUBED + j], w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
-        latent = (w[LATENT + j], w[LATENT_SLOPE + j])
+        latent = evaporation(face[0], w[VAPOUR_EXCHANGE + j], vapour) if wet else (0.0, 0.0)
         ext, inn, root, room_root, moved = newton(face, room_face, loads, latent, exchange, grey, air, room)
         w[EXTERIOR + j], w[INTERIOR + j] = face[0] if still else ext, room_face[0] if still else inn
         w[PER_FILM + j], w[INTERIOR_PER_FILM + j] = face[1] if still else root, room_face[1] if still else room_root
@@ -175,13 +211,8 @@ def _approach(
 
 
 @inner
-def evaporate(lanes: Index, w: FloatArray, vapour: float, at: float) -> None:
-    """Latent heat that leaves a wet face and its slope per kelvin of it."""
+def evaporate(lanes: Index, w: FloatArray, vapour: float) -> None:
+    """Latent heat that leaves wet faces and its slope."""
+    wide()
     for j in range(lanes):
-        t = max(w[EXTERIOR + j], COLDEST_WATER)
-        high = 3.031240396e-4 + t * (2.034080948e-6 + t * 6.136820929e-9)
-        pressure = 610.7799961 + t * (44.36518521 + t * (1.428945805 + t * (2.650648471e-2 + t * high)))
-        high = 4.0 * 3.031240396e-4 + t * (5.0 * 2.034080948e-6 + t * 6.0 * 6.136820929e-9)
-        rise = 44.36518521 + t * (2.0 * 1.428945805 + t * (3.0 * 2.650648471e-2 + t * high))
-        exchange = (1.0 - at) * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j]
-        w[LATENT + j], w[LATENT_SLOPE + j] = exchange * (pressure - vapour), exchange * max(rise, 0.0)
+        w[LATENT + j], w[LATENT_SLOPE + j] = evaporation(w[EXTERIOR + j], w[VAPOUR_EXCHANGE + j], vapour)

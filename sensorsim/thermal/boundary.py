@@ -85,7 +85,7 @@ class Columns(NamedTuple):
 
     cells: FloatArray  # (n, m) [C]
     carried: FloatArray  # (10, m) by pairs of the exterior and the interior face, see the properties
-    absorptance: FloatArray  # (a,) of each orientation, whose columns follow one another
+    absorptance: FloatArray  # (a,); the columns of each stand together, orientation by orientation
 
     @property
     def faces(self) -> FloatArray:

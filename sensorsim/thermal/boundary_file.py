@@ -188,7 +188,9 @@ def _read_numbers(table: _Table, name: str) -> FloatArray:
     except ValueError as error:
         row = next(row for row, text in enumerate(texts) if _number(text) is None)
         problem = "not a number" if texts[row] else "empty"
-        raise table.error(name, row, problem, "fill the gap or drop the row") from error
+        comma = _number(texts[row].replace(",", ".")) is not None
+        remedy = "write a point for the comma" if comma else "fill the gap or drop the row"
+        raise table.error(name, row, problem, remedy) from error
     if name in TEMPERATURES:
         values += ZERO_CELSIUS
     fault = find_fault({name: values})

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.thermal.balance import Exchange, Guess, Room, balance, leap, load
+from sensorsim.thermal.balance import Exchange, Guess, Room, balance
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, Trace
 from sensorsim.thermal.damping import CARRY, GAMMA, calls_for_damping, go_back, join
 from sensorsim.thermal.lanes import (
@@ -66,7 +66,7 @@ NO_TRACE = Trace(np.zeros(0, dtype=np.int64), np.zeros((0, 2, 0)))
 FIRST_GUESS = (0.0, GAMMA + 0.5 * GAMMA * (1.0 + GAMMA), -0.5 * GAMMA * (1.0 + GAMMA))
 SECOND_GUESS = (1.0 / GAMMA, 0.0, 0.0)
 DAMPED_GUESS = (0.0, 1.0, 0.0)
-CHUNK = 64  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
+CHUNK = 32  # steps that all blocks make in turn, so that what acts on them is fetched from memory once
 
 
 def advance(
@@ -105,7 +105,7 @@ def _all(
         stop = min(start + CHUNK, last)
         for number in range(groups(columns, lanes)):
             group = group_at(columns, lanes, number)
-            take(lanes, w, c, group, columns, outside.free, outside.free_colder)
+            take(lanes, w, c, group, columns, outside)
             sample(lanes, w, group, outside, start)
             eliminate(lanes, w, c, place, cells.outward, cells.exchange[0, 4])
             for k in range(start, stop):
@@ -125,11 +125,11 @@ def sample(lanes: Index, w: FloatArray, group: Group, outside: Outside, k: int) 
         w[START + j], w[INTERIOR_START + j] = w[EXTERIOR + j], w[INTERIOR + j]
     for j in range(LATER):
         w[ABSORBED + j] = w[LATER + ABSORBED + j]
-    spread(lanes, w, LATER + SUN, outside.irradiance[k], group)
-    spread(lanes, w, LATER + LONGWAVE, outside.longwave[k], group)
-    spread(lanes, w, LATER + FORCED, outside.film[k], group)
+    spread(lanes, w, LATER + SUN, outside.irradiance[k], group.begin, group.width)
+    spread(lanes, w, LATER + LONGWAVE, outside.longwave[k], group.begin, group.width)
+    spread(lanes, w, LATER + FORCED, outside.film[k], group.begin, group.width)
     if outside.latent.shape[0] > 1:
-        spread(lanes, w, LATER + EXCHANGE, outside.latent[k], group)
+        spread(lanes, w, LATER + EXCHANGE, outside.latent[k], group.begin, group.width)
     for j in range(lanes):
         absorbed = w[ABSORPTANCE + j] * w[LATER + SUN + j]
         w[LATER + ABSORBED + j] = absorbed + outside.emissivity * w[LATER + LONGWAVE + j]
@@ -225,5 +225,4 @@ def _faces(
     wet, rest, grey = outside.latent.shape[0] > 1, 1.0 - at, outside.emissivity * SIGMA
     air, vapour = rest * early[0] + at * late[0], rest * early[1] + at * late[1]
     room = room_at(early, late, at, inside.free, inside.emissivity * SIGMA)
-    moving = load(lanes, w, at, guess) if wet else leap(lanes, w, exchange, grey, air, room, at, guess)
-    return balance(lanes, w, exchange, grey, air, vapour, room, wet, at, moving)
+    return balance(lanes, w, exchange, grey, air, vapour, room, wet, at, guess)

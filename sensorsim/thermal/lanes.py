@@ -12,14 +12,14 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
 
-from sensorsim.thermal.boundary import Columns, FloatArray
+from sensorsim.thermal.boundary import Columns, FloatArray, Outside
 
 F = TypeVar("F", bound=Callable[..., object])
 Index = np.uint64
 LANES = 32  # at most
 VECTOR = 8
 UNBOUNDED = 1e9  # [K], [W m-2]
-ROW = [Index(LANES * row) for row in range(52)]
+ROW = [Index(LANES * row) for row in range(53)]
 # What a column carries from step to step, in the order of `Columns.carried`, and what it never changes.
 EXTERIOR, INTERIOR, PER_FILM, INTERIOR_PER_FILM, HEAT, INTERIOR_HEAT = ROW[0:6]
 RISE, INTERIOR_RISE, RISE_BEFORE, INTERIOR_RISE_BEFORE = ROW[6:10]
@@ -30,7 +30,7 @@ ABSORBED, FORCED, EXCHANGE, SUN, LONGWAVE, LATER = *ROW[13:18], ROW[5]
 LOAD, FILM_CUBED, LATENT, LATENT_SLOPE, LEFT, RIGHT, MOVED, FIRST, OUTERMOST = ROW[23:32]
 FLUX, INTERIOR_FLUX, LATER_FLUX, LATER_INTERIOR_FLUX = ROW[32:36]
 START, INTERIOR_START, LEAST, MOST, LOWEST, HIGHEST, MARK = ROW[36:43]
-KEPT, ALL = ROW[43], ROW[51]
+KEPT, VAPOUR_EXCHANGE, ALL = ROW[43], ROW[51], ROW[52]
 # Rows of each cell: now, as eliminated so far, before the step.
 NOW, WORK, OLD, CELL = ROW[0:4]
 
@@ -39,9 +39,9 @@ class Group(NamedTuple):
     """Orientations at one absorptance, which have a lane each: what acts on them lies side by side in memory."""
 
     begin: Index  # first orientation
-    width: Index  # orientations
-    absorptances: Index  # that all orientations have
-    absorptance: Index  # which of them
+    width: Index  # how many
+    column: Index  # of the first
+    absorptance: Index
 
 
 def inner(function: F) -> F:
@@ -97,12 +97,6 @@ def lanes_for(orientations: int) -> Index:
 
 
 @scalar
-def column(group: Group, j: int) -> Index:
-    """Column of a lane; lanes beyond the last orientation repeat it."""
-    return (group.begin + min(Index(j), group.width - Index(1))) * group.absorptances + group.absorptance
-
-
-@scalar
 def groups(columns: Columns, lanes: Index) -> int:
     """How many groups there are of all columns."""
     absorptances = columns.absorptance.size
@@ -112,44 +106,42 @@ def groups(columns: Columns, lanes: Index) -> int:
 @scalar
 def group_at(columns: Columns, lanes: Index, number: int) -> Group:
     """The group of a number; those of the same orientations, which the same acts on, follow one another."""
-    absorptances, begin = Index(columns.absorptance.size), Index(number // columns.absorptance.size) * lanes
-    width = min(lanes, Index(columns.carried.shape[1]) // absorptances - begin)
-    return Group(begin, width, absorptances, Index(number % columns.absorptance.size))
+    absorptances, begin = columns.absorptance.size, Index(number // columns.absorptance.size) * lanes
+    orientations, absorptance = Index(columns.carried.shape[1] // absorptances), Index(number % absorptances)
+    return Group(begin, min(lanes, orientations - begin), absorptance * orientations + begin, absorptance)
 
 
 @scalar
-def spread(lanes: Index, w: FloatArray, at: Index, values: FloatArray, group: Group) -> None:
-    """Values (o,) of a group's orientations into lanes."""
-    for j in range(group.width):
-        w[at + j] = values[group.begin + j]
-    last = w[at + group.width - Index(1)]
-    for j in range(group.width, lanes):
+def spread(lanes: Index, w: FloatArray, at: Index, values: FloatArray, begin: Index, width: Index) -> None:
+    """Values of a group from `begin` on into lanes; those beyond its width repeat the last one."""
+    for j in range(width):
+        w[at + j] = values[begin + j]
+    last = w[at + width - Index(1)]
+    for j in range(width, lanes):
         w[at + j] = last
+
+
+@scalar
+def collect(w: FloatArray, at: Index, values: FloatArray, group: Group) -> None:
+    """Lanes back into the values of a group's columns."""
+    for j in range(group.width):
+        values[group.column + j] = w[at + j]
 
 
 @inner
 def take(
-    lanes: Index,
-    w: FloatArray,
-    c: FloatArray,
-    group: Group,
-    columns: Columns,
-    free: FloatArray,
-    free_colder: FloatArray,
-) -> None:
+    lanes: Index, w: FloatArray, c: FloatArray, group: Group, columns: Columns, outside: Outside
+) -> None:  # fmt: skip
     """Columns of a group into lanes."""
-    spread(lanes, w, FREE, free, group)
-    spread(lanes, w, FREE_COLDER, free_colder, group)
+    spread(lanes, w, FREE, outside.free, group.begin, group.width)
+    spread(lanes, w, FREE_COLDER, outside.free_colder, group.begin, group.width)
     for j in range(lanes):
         w[ABSORPTANCE + j], w[LEAST + j], w[MOST + j] = columns.absorptance[group.absorptance], UNBOUNDED, -UNBOUNDED
     for row in range(columns.carried.shape[0]):
-        to, carried = Index(row) * Index(LANES), columns.carried[row]
-        for j in range(lanes):
-            w[to + j] = carried[column(group, j)]
+        spread(lanes, w, Index(row) * Index(LANES), columns.carried[row], group.column, group.width)
     for i in range(columns.cells.shape[0]):
-        at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
-        for j in range(lanes):
-            c[at + j] = cells[column(group, j)]
+        at = Index(i + 1) * CELL + NOW
+        spread(lanes, c, at, columns.cells[i], group.column, group.width)
         for j in range(lanes):
             w[LEAST + j], w[MOST + j] = min(w[LEAST + j], c[at + j]), max(w[MOST + j], c[at + j])
 
@@ -158,19 +150,13 @@ def take(
 def give(w: FloatArray, c: FloatArray, group: Group, columns: Columns) -> None:
     """Lanes back into columns."""
     for row in range(columns.carried.shape[0]):
-        at, carried = Index(row) * Index(LANES), columns.carried[row]
-        for j in range(group.width):
-            carried[column(group, j)] = w[at + j]
+        collect(w, Index(row) * Index(LANES), columns.carried[row], group)
     for i in range(columns.cells.shape[0]):
-        at, cells = Index(i + 1) * CELL + NOW, columns.cells[i]
-        for j in range(group.width):
-            cells[column(group, j)] = c[at + j]
+        collect(c, Index(i + 1) * CELL + NOW, columns.cells[i], group)
 
 
 @inner
 def note(w: FloatArray, faces: FloatArray, group: Group) -> None:
     """Temperatures of both faces (2, m) [C] of one sample, as they are now."""
-    exterior, interior = faces[0], faces[1]
-    for j in range(group.width):
-        k = column(group, j)
-        exterior[k], interior[k] = w[EXTERIOR + j], w[INTERIOR + j]
+    collect(w, EXTERIOR, faces[0], group)
+    collect(w, INTERIOR, faces[1], group)

@@ -61,9 +61,9 @@ def march(
     """March a wall through all samples of its boundary conditions, `step` [s] apart, and record the samples asked for.
 
     The start is linear between interior and exterior air, as in section 3.6.1 of [Report1978], unless cell
-    temperatures `start` (n,), or (n, m) of all columns, [K] are given; faces then begin as the cells next to them. The
-    inside of a curved `grid` is given per its own area, as elsewhere; heats come per exterior area. A solid one has no
-    inside: its innermost cell stands for the interior face.
+    temperatures `start` (n,), or (n, o, a) of all surfaces, [K] are given; faces then begin as the cells next to them.
+    The inside of a curved `grid` is given per its own area, as elsewhere; heats come per exterior area. A solid one has
+    no inside: its innermost cell stands for the interior face.
 
     What lies down to `melting_depth` [m] is snow, or ice where its water does not drain (see `melting`): it melts and
     freezes at 0 C; ice that starts warmer is water. Steps of such a wall are of first order.
@@ -72,7 +72,6 @@ def march(
     latent = latent_heat(layers, grid, melting_depth)
     outside, inside = _plain_outside(outside), _plain_inside(inside, grid)
     columns = _start(grid, outside, inside, absorptances, start)
-    shape = (outside.irradiance.shape[1], absorptances.size)
     walls = factor(grid, GAMMA * step, step), factor(grid, step, step)
     thaw = Thaw(grid.capacity, grid.conductance, latent, drains)
     before, taken = grid.capacity @ columns.cells, _taken(columns, thaw)
@@ -82,18 +81,23 @@ def march(
         faces = _march_through(run, record)
     else:
         faces = _march_by_samples(run, record, grid, nodes)
-    exterior, interior = faces.swapaxes(0, 1).reshape(2, -1, *shape) + ZERO_CELSIUS
+    exterior, interior = _by_surface(faces.swapaxes(0, 1), absorptances.size) + ZERO_CELSIUS
     return History(
         sample=record,
         exterior=exterior,
         interior=interior,
-        nodes=None if nodes is None else nodes.reshape(record.size, -1, *shape) + ZERO_CELSIUS,
-        heat=columns.heat.reshape(2, *shape),
-        stored=(grid.capacity @ columns.cells - before).reshape(shape),
-        melted=(_sum_of_cells(taken) - held).reshape(shape),
-        drained=taken[-1].reshape(shape),
+        nodes=None if nodes is None else _by_surface(nodes, absorptances.size) + ZERO_CELSIUS,
+        heat=_by_surface(columns.heat, absorptances.size),
+        stored=_by_surface(grid.capacity @ columns.cells - before, absorptances.size),
+        melted=_by_surface(_sum_of_cells(taken) - held, absorptances.size),
+        drained=_by_surface(taken[-1], absorptances.size),
         grid=grid,
     )
+
+
+def _by_surface(values: FloatArray, absorptances: int) -> FloatArray:
+    """Values (..., m) of columns as (..., o, a)."""
+    return values.reshape(*values.shape[:-1], absorptances, -1).swapaxes(-1, -2)
 
 
 def _plain_outside(outside: Outside) -> Outside:
@@ -161,13 +165,15 @@ def _require_settled(failures: int, faces: FloatArray, first: int, last: int) ->
 def _start(
     grid: WallGrid, outside: Outside, inside: Inside, absorptances: FloatArray, start: FloatArray | None
 ) -> Columns:
-    """Columns, orientation by orientation and absorptance by absorptance, at the first sample."""
+    """Columns at the first sample."""
     count = outside.irradiance.shape[1] * absorptances.size
     reach = np.concatenate([[0.0], np.cumsum(1.0 / np.maximum(grid.conductance, 1e-12))])
     share = reach / reach[-1]
     line = outside.air[0] + (inside.air[0] - outside.air[0]) * share
     profile = line[1:-1] if start is None else start
-    cells = profile if profile.ndim == 2 else np.repeat(profile[:, None], count, axis=1)
+    surfaces = profile if profile.ndim == 3 else profile[:, None, None]
+    shape = (profile.shape[0], outside.irradiance.shape[1], absorptances.size)
+    cells = np.broadcast_to(surfaces, shape).swapaxes(1, 2).reshape(shape[0], count)
     ends = line[[0, -1], None] if start is None or start.size == 0 else cells[[0, -1]]
     faces = np.broadcast_to(ends, (2, count)) - ZERO_CELSIUS
     return Columns(

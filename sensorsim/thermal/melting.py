@@ -21,7 +21,19 @@ from sensorsim.thermal.balance import load
 from sensorsim.thermal.boundary import Columns, FloatArray, Inside, Outside
 from sensorsim.thermal.grid import LayerLike, WallGrid
 from sensorsim.thermal.kernel import DAMPED_GUESS, Shared, room_at, sample, settle, share
-from sensorsim.thermal.lanes import Group, Index, column, give, group_at, groups, inner, lanes_for, room_for, take
+from sensorsim.thermal.lanes import (
+    Group,
+    Index,
+    collect,
+    give,
+    group_at,
+    groups,
+    inner,
+    lanes_for,
+    room_for,
+    spread,
+    take,
+)
 from sensorsim.thermal.melting_cells import (
     MELTING_ROWS,
     TAKEN,
@@ -91,7 +103,7 @@ def _all(
     factor_linear(wall, block, step)
     for number in range(groups(columns, lanes)):
         group = group_at(columns, lanes, number)
-        take(lanes, w, block.c, group, columns, outside.free, outside.free_colder)
+        take(lanes, w, block.c, group, columns, outside)
         _take(lanes, block, taken, group)
         sample(lanes, w, group, outside, first)
         for k in range(first, last):
@@ -109,8 +121,7 @@ def _take(lanes: Index, block: Block, taken: FloatArray, group: Group) -> None:
     p = block.spot.size - 1
     for i in range(p + 1):
         at, held = block.spot[i] + TAKEN, taken[i if i < p else taken.shape[0] - 1]
-        for j in range(lanes):
-            block.v[at + j] = held[column(group, j)]
+        spread(lanes, block.v, at, held, group.column, group.width)
 
 
 @inner
@@ -119,8 +130,7 @@ def _give(block: Block, taken: FloatArray, group: Group) -> None:
     p = block.spot.size - 1
     for i in range(p + 1):
         at, held = block.spot[i] + TAKEN, taken[i if i < p else taken.shape[0] - 1]
-        for j in range(group.width):
-            held[column(group, j)] = block.v[at + j]
+        collect(block.v, at, held, group)
 
 
 @inner

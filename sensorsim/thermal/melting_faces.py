@@ -57,7 +57,7 @@ def gain_at_zero(lanes: Index, w: FloatArray, grey: float, air: float, vapour: f
         w[CUBED + j], w[ROOT + j], w[TURNED + j] = w[FILM_CUBED + j] + lift, w[PER_FILM + j], UNBOUNDED
         w[GAIN + j], w[EXTERIOR + j], w[LATENT + j] = w[EXTERIOR + j], 0.0, 0.0
     if wet:
-        evaporate(lanes, w, vapour, 1.0)
+        evaporate(lanes, w, vapour)
     moving, rounds = 1, 0
     while moving > 0 and rounds < ITERATION_LIMIT:
         moving, rounds = _approach_film(lanes, w), rounds + 1
@@ -89,7 +89,7 @@ def balance_melting(lanes: Index, w: FloatArray, grey: float, air: float, vapour
     moving, rounds, sure = 1, 0, 2 if wet else 1
     while (moving > 0 or rounds < sure) and rounds < ITERATION_LIMIT:
         if wet:
-            evaporate(lanes, w, vapour, 1.0)
+            evaporate(lanes, w, vapour)
         moving = _approach(lanes, w, grey, air, room, TOLERANCE if rounds >= sure else AT_REST)
         rounds += 1
     return moving

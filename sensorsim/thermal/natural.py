@@ -28,17 +28,17 @@ from sensorsim.thermal.heat_balance import Exposure, outside_of
 from sensorsim.thermal.rain import FILM_CAPACITY, LEAF_CAPACITY, caught_rain, rain_film, wet_share
 from sensorsim.thermal.vapour import psychrometric_constant
 
-VON_KARMAN = 0.41
+VON_KARMAN = 0.41  # [Allen1998]
 WIND_HEIGHT, AIR_HEIGHT = 10.0, 2.0  # [m] above the surface, of a weather station's instruments
 DISPLACEMENT, ROUGHNESS, HEAT_ROUGHNESS = 2.0 / 3.0, 0.123, 0.1  # of plant height, of it, of z0 [Allen1998]
 MIXED_LAYER = 1000.0  # [m] depth of the air that the day stirs [Beljaars1995]
 HEATING_SHARE = 0.2  # [-] of the sunlight that a landscape hands on to the air as heat, estimate
-LEAST_GUST = 0.2  # [m s-1] by night [Fairall1996]
+LEAST_GUST = 0.2  # [m s-1] by night [Fairall2003]
 LIGHT = (0.004, 0.05, 0.81)  # b [m2 W-1], c, a of f_light = (b S + c) / (a (b S + 1)) [IFS2020]
-BEST_TEMPERATURE, TEMPERATURE_SENSITIVITY = 298.0, 0.0016  # [K], [K-2] [Stewart1988]
-CLOSED = 1e-3  # [-] least opening of the stomata
-STILL_WATER_CONDUCTIVITY = 0.6  # [W m-1 K-1]
-DAY_OF_TRAFFIC = (6.0, 22.0)  # [h]
+BEST_TEMPERATURE, TEMPERATURE_SENSITIVITY = 298.0, 0.0016  # [K], [K-2] [NoilhanPlanton1989]
+CLOSED = 1e-3  # [-] least opening of the stomata, estimate
+STILL_WATER_CONDUCTIVITY = 0.6  # [W m-1 K-1] at 10 C [EN12524]
+DAY_OF_TRAFFIC = (6.0, 22.0)  # [h] estimate
 FREE_DIFFERENCE = 3.0  # [K] from the air, that the free film is taken at where a wet wall's vapour needs it beforehand
 AERODYNAMIC = ("soil", "plants", "water", "snow")
 

@@ -122,12 +122,12 @@ def _cells_at(
     path: GridPath, outside: Outside, inside: Inside, absorptances: FloatArray, *, step: float, sample: int,
     start: FloatArray | None,
 ) -> FloatArray:  # fmt: skip
-    """Cell temperatures (n, m) [K] of a path at a sample."""
+    """Cell temperatures (n, o, a) [K] of a path at a sample."""
     history = march(
         path.layers, outside, inside, absorptances, step=step, record=np.array([sample]), keep_nodes=True,
         grid=path.grid, start=start,
     )  # fmt: skip
-    return np.asarray(history.nodes).reshape(path.grid.capacity.size, -1)
+    return np.array(np.asarray(history.nodes)[0])
 
 
 def _join(fractions: Sequence[float], histories: Sequence[History]) -> History:

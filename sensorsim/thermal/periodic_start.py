@@ -19,18 +19,18 @@ REPETITIONS = 3  # each makes what is left some twenty times smaller
 def settled_cells(
     layers: Sequence[LayerLike], grid: WallGrid, outside: Outside, inside: Inside, absorptances: FloatArray, step: float
 ) -> FloatArray:
-    """Cell temperatures (n, m) [K] at the first sample, for columns orientation by orientation."""
+    """Cell temperatures (n, o, a) [K] at the first sample."""
     outer = mean_film(outside.film, outside.emissivity, outside.air)
     inner = grid.interior_area * mean_film(inside.film, inside.emissivity, inside.radiant)
     modes, record = grid_modes(grid, outer, inner), np.array([0, round(SECONDS_PER_DAY / step)])
-    columns = outside.irradiance.shape[1] * absorptances.size
     cells = None
     for _ in range(REPETITIONS):
         history = march(
             layers, outside, inside, absorptances, step=step, record=record, keep_nodes=True, grid=grid, start=cells
         )
-        nodes = np.asarray(history.nodes).reshape((2, grid.capacity.size, columns))
-        cells = nodes[0] + modes.limit(nodes[1] - nodes[0], SECONDS_PER_DAY)
+        nodes = np.asarray(history.nodes)
+        drift = (nodes[1] - nodes[0]).reshape(grid.capacity.size, -1)
+        cells = nodes[0] + modes.limit(drift, SECONDS_PER_DAY).reshape(nodes.shape[1:])
     return np.asarray(cells)
 
 

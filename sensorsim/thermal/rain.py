@@ -13,12 +13,12 @@ from sensorsim.thermal.grid import FloatArray
 from sensorsim.thermal.heat_balance import Exposure
 from sensorsim.thermal.vapour import latent_heat, potential_evaporation
 
-WATER_SPECIFIC_HEAT = 4186.0  # [J kg-1 K-1]
+WATER_SPECIFIC_HEAT = 4186.0  # [J kg-1 K-1] at 15 C, by the calorie of that temperature [NIST811]
 DRIVEN_COEFFICIENT, DRIVEN_POWER = 2.0 / 9.0, 8.0 / 9.0  # of rain on a wall facing the wind [ISO15927]
 FILM_CAPACITY = 0.25  # [kg m-2] that stays on buildings [Jarvi2011]
 LEAF_CAPACITY = 0.2  # [kg m-2] on each unit of leaf area [Dickinson1984]
 WET_SHARE_POWER = 2.0 / 3.0  # of the film's fullness, for the share of the surface it covers [Deardorff1978]
-WET_ABSORPTANCE = 0.7  # [-] of sun, for how fast the film dries; the balance itself has the surface's own
+WET_ABSORPTANCE = 0.7  # [-] of sun, for how fast the film dries, estimate; the balance has the surface's own
 
 
 def caught_rain(environment: Environment, normal: FloatArray) -> FloatArray:

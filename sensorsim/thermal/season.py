@@ -8,7 +8,7 @@ from sensorsim.constants import SECONDS_PER_DAY, ZERO_CELSIUS
 from sensorsim.environment import Environment, saturation_vapour_pressure
 from sensorsim.thermal.grid import FloatArray
 
-HORIZON = -0.833  # [deg] elevation of the sun at sunrise
+HORIZON = -0.833  # [deg] elevation of the sun at sunrise: 34' of refraction, 16' of its radius [Seidelmann1992]
 GREEN_INDEX = 0.5  # growing season index at and above which there are leaves [Jolly2005]
 # Where growth stops and where nothing hinders it [Jolly2005 table 1].
 COLDEST_NIGHT = (ZERO_CELSIUS - 2.0, ZERO_CELSIUS + 5.0)  # [K]

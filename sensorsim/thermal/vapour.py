@@ -11,7 +11,7 @@ from sensorsim.environment import saturation_vapour_pressure
 from sensorsim.thermal.air_properties import SPECIFIC_HEAT
 from sensorsim.thermal.grid import FloatArray
 
-VAPOUR_OVER_AIR = 0.622  # [-] molar masses
+VAPOUR_OVER_AIR = 0.622  # [-] molar masses [Allen1998]
 
 
 def latent_heat(temperature: FloatArray) -> FloatArray:

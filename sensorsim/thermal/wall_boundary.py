@@ -26,6 +26,8 @@ IRRADIANCES = ("beam", "sky_diffuse", "ground_reflected")
 FILMS = ("exterior_film", "interior_film")
 # Above it a number is far likelier to be a kelvin taken for a degree Celsius than a wall's surroundings.
 WARMEST = kelvin_from_celsius(150.0)  # [K]
+BRIGHTEST = 1e5  # [W m-2] seventy suns: what lies above is likelier to be joules an hour
+STRONGEST = 1e9  # [W m-2 K-1] film, with which a face is its air's to the last digit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -147,8 +149,10 @@ def _rules(name: str, values: FloatArray) -> list[tuple[NDArray[np.bool_], str, 
         )
     elif name in IRRADIANCES:
         rules.append((values < 0.0, "a negative irradiance", "set the night's instrument offsets to 0"))
+        rules.append((values > BRIGHTEST, f"above {BRIGHTEST:g} W m-2", "check that it is not joules or a sum"))
     elif name in FILMS:
         rules.append((values < 0.0, "a negative film coefficient", "give 0 or more"))
+        rules.append((values > STRONGEST, f"above {STRONGEST:g} W m-2 K-1", "give less: the face has its air's anyway"))
     return rules
 
 

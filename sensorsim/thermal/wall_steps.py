@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import ZERO_CELSIUS
-from sensorsim.errors import NumericsError
+from sensorsim.errors import InputError, NumericsError
 from sensorsim.thermal.boundary import Cells, Columns, FloatArray, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import GAMMA
@@ -23,6 +23,7 @@ BLOCK = 8192  # steps whose conditions are laid out at once
 FINER = 0.5  # cell sizes over those of a bake: one wall can afford a quarter of the error in space
 FINEST = 1.0  # [s] a shorter step asks for no finer cells
 FOREVER = 1e15  # [s] after which a wall under constant conditions is steady
+MOST_STEPS = 1_000_000  # of an interval between samples, which is laid out at once
 AT_ONCE = 1e-6  # [s] in which faces, which hold no heat, come to their balance and cells stay as they are
 
 
@@ -93,8 +94,15 @@ class WallSteps:
 
 
 def step_counts(time: FloatArray, step: float) -> NDArray[np.int64]:
-    """Equal steps of at most `step` [s] in each interval between times (t,) [s]: (t - 1,)."""
-    return np.asarray(np.maximum(1, np.ceil(np.diff(time) / step - 1e-9)), dtype=np.int64)
+    """Equal steps of at most `step` [s] in each interval between times (t,) [s]: (t - 1,).
+
+    Raises InputError for a step far too short for an interval.
+    """
+    counts = np.maximum(1.0, np.ceil(np.diff(time) / step - 1e-9))
+    if np.any(counts > MOST_STEPS):
+        problem = f"{counts.max():.3g} of them between two samples, more than {MOST_STEPS:,}"
+        raise InputError("wall", "step", step, problem, "give a longer step, or samples closer to each other")
+    return np.asarray(counts, dtype=np.int64)
 
 
 def wall_grid(
