@@ -38,7 +38,8 @@ def glint(
     seen = facets(variance).seen
     shown = np.interp(into, COSINE, seen) * np.interp(out, COSINE, seen)
     mirrored = facet + (1.0 - facet) * np.interp(incidence, COSINE, gloss.nir.rise)
-    return np.asarray(np.where(into > 0.0, mirrored * density * shown / (4.0 * out), 0.0))
+    found = np.minimum(density * shown / (4.0 * out), 1.0 / (np.pi * radius**2))
+    return np.asarray(np.where(into > 0.0, mirrored * found, 0.0))
 
 
 def scattered(

@@ -53,6 +53,12 @@ def test_choice_is_read_and_written(text: str, wanted: set[str], refused: set[st
         ("some", "begin with one of auto, all, none"),
         ("", "begin with one of"),
         ("auto,rain", "has no sign"),
+        ("rain", r"write \+rain or -rain"),
+        ("auto,nanK", "not a number from 0 on"),
+        ("auto,-0.1K", "not a number from 0 on"),
+        ("auto,infK", "not a number from 0 on"),
+        ("auto,muchK", "not one number in kelvin"),
+        ("0.1K,0.2K", "not one number in kelvin"),
         ("+shadows", "use one of .*direct_sun"),
         ("-glint", "unknown or not modelled"),
         ("+rain,-rain", "on and off at once"),
@@ -76,6 +82,20 @@ def test_choice_that_cannot_be_honoured_is_refused(text: str, problem: str) -> N
 def test_effect_whose_inputs_are_missing_is_refused_by_their_name(text: str, sky: str, mode: str, missing: str) -> None:
     with pytest.raises(InputError, match=missing):
         read_choice(text).require_inputs(sky=sky, mode=mode)
+
+
+@pytest.mark.parametrize("text", ["auto,0.1K", "0.1K", "0.1K,-rain", "all,+snow,-rain,0.1K"])
+def test_tolerance_is_read_written_and_kept(text: str) -> None:
+    choice = read_choice(text)
+    assert choice.tolerance == 0.1
+    assert read_choice(choice.text) == choice
+    assert choice.with_refused("interior").with_wanted("rain" if "rain" not in text else "snow").tolerance == 0.1
+
+
+def test_tolerance_in_kelvin_needs_a_band_that_shows_them() -> None:
+    read_choice("auto,0.1K").require_inputs(sky="perez", mode="emissive")
+    with pytest.raises(InputError, match="kelvin need a sensor in an emissive band"):
+        read_choice("auto,0.1K").require_inputs(sky="perez", mode="reflective")
 
 
 def test_smallest_bounds_go_first_until_the_tolerance_is_used_up() -> None:
@@ -141,6 +161,33 @@ def test_effects_prints_the_ledger_that_the_frame_has(
     assert settings["not_modelled"] == told["not_modelled"] == list(NOT_MODELLED)
     assert {row["effect"]: row["on"] for row in told["effects"]}["direct_sun"]
     assert not {row["effect"]: row["on"] for row in told["effects"]}["rain"]
+
+
+def test_effects_go_by_the_tolerance_that_the_user_gives(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """Of none everything goes that changes nothing, of a million kelvin all but what is kept on request."""
+    told, town = {}, write_town(tmp_path, town_features())
+    for text in ("auto,0K", "auto", "auto,1000000K"):
+        run(monkeypatch, "effects", town, "--at", AT, "--preset", "report", "--effects", text, "--json")
+        told[text] = json.loads(capsys.readouterr().out)["effects"]
+    on = {text: {row["effect"] for row in rows if row["on"]} for text, rows in told.items()}
+    assert on["auto,0K"] >= on["auto"] > on["auto,1000000K"] == set()
+    assert {row["tolerance"] for row in told["auto,1000000K"]} == {1e6}
+    exchange = next(row for row in told["auto"] if row["effect"] == "exchange")
+    assert not exchange["on"]
+    assert "on request" not in exchange["reason"]
+
+
+def test_band_without_temperature_tells_that_the_bake_is_what_it_saves(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    town = write_town(tmp_path, town_features())
+    run(monkeypatch, "effects", town, "--at", AT, "--preset", "report", "--sensor", "lltv", "--json")
+    rows = {row["effect"]: row for row in json.loads(capsys.readouterr().out)["effects"]}
+    assert not any(rows[name]["on"] for name in ("temperature", "spare_reflectances", "spare_orientations", "interior"))
+    assert rows["temperature"]["saves_ms"] > 10.0
+    assert rows["interior"]["saves_ms"] == 0.0
 
 
 def test_effects_prints_a_table(

@@ -11,11 +11,10 @@ from effect_cases import DAYS, random_weather
 from numpy.typing import NDArray
 from small_world import town_features, write_town
 
-from sensorsim.effects import DEFAULT_NOISE, NOISE_SHARE, EffectChoice, EffectPlan, read_choice
+from sensorsim.effects import DEFAULT_NOISE, NOISE_SHARE, EffectChoice, read_choice
 from sensorsim.environment import Weather, read_weather
 from sensorsim.errors import InputError
 from sensorsim.render import EVERY_EFFECT, Camera, Renderer, World, build_world, look_at, station_camera
-from sensorsim.render.variants import all_plans, surface_defines
 from sensorsim.scene import Scene, load_scene
 from sensorsim.sensor import load_sensor
 from sensorsim.study.gallery import FIGURES
@@ -27,7 +26,6 @@ COARSE = BakeSettings(
     orientations="report10", reflectances=(0.1, 0.5, 0.9), degree=2, step=1800.0, slice_interval=3600.0,
     lead_in_days=1.0,
 )  # fmt: skip
-LOBED = BakeSettings(orientations="icosphere42", step=1200.0, slice_interval=3600.0, lead_in_days=1.0)
 FINER = replace(COARSE, orientations="icosphere42")
 AUTO = EffectChoice(base="auto")
 SIZE = (96, 72)
@@ -211,18 +209,21 @@ def test_every_pixel_from_tables_with_lobes_is_within_tolerance_of_all_effects(t
             compare(full, lean, ACROSS, hour)
 
 
-def test_programs_of_all_plans_are_sixteen_at_most_and_compile(tmp_path: Path) -> None:
-    """Ten for surfaces of both kinds of band, with lobes or without, four for the background, two for the display."""
-    drawn: set[tuple[str, tuple[tuple[str, int], ...]]] = set()
-    for sensor in ("flir", "lltv"):
-        for settings in (COARSE, LOBED):
-            with Renderer(town(tmp_path, "all", settings=settings), load_sensor(sensor), size=SIZE) as renderer:
-                with renderer.ctx:
-                    for plan in all_plans():
-                        renderer._programs.surfaces(plan)
-                        renderer._programs.background(plan)
-                drawn |= set(renderer._programs.built)
-    shown = 2  # a straight line, and a curve of tones
-    assert len(drawn) + shown <= 16
-    told = [surface_defines(EffectPlan(), emissive=emissive) for emissive in (False, True)]
-    assert all(("surfaces", tuple(defines.items())) in drawn for defines in told)
+@pytest.mark.parametrize(
+    ("sensor", "left"), [("flir", "-atmosphere"), ("lltv", "-atmosphere"), ("lltv", "-atmosphere,-reflected_sun")]
+)
+def test_frames_for_display_alone_leave_out_air_and_sunlight_on_the_quick_road(
+    sensor: str, left: str, tmp_path: Path
+) -> None:
+    """Within a code of the whole frame, and unlike the frame that has them."""
+    baked = town(tmp_path, "auto", sensor)
+    shown = {}
+    for choice in ("all", f"all,{left}"):
+        chosen = replace(baked, choice=read_choice(choice))
+        with Renderer(chosen, load_sensor(sensor), size=SIZE) as renderer:
+            whole = renderer.render(ACROSS, 36000.0)
+            quick = renderer.render(ACROSS, 36000.0, planes=("display",), display=whole.display)
+            assert renderer._quick is not None
+        assert np.abs(quick.planes["display"].astype(int) - whole.planes["display"]).max() <= 1
+        shown[choice] = quick.planes["display"].astype(int)
+    assert np.abs(np.subtract(*shown.values())).max() > 3

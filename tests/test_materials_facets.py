@@ -134,6 +134,17 @@ def test_flat_mirror_shows_the_disc_as_bright_as_it_is_and_no_brighter(angle: fl
         assert found.max() <= disc * (1.0 + 1e-3)
 
 
+def test_no_glint_is_brighter_than_the_disc_at_the_flattest_angles() -> None:
+    """Sun and eye within two widths of the disc of the face itself, on all sides."""
+    rng = np.random.default_rng(3)
+    up, azimuth = rng.uniform(1e-5, 4.0 * SUN_RADIUS, (2, 20000)), rng.normal(0.0, 2.0 * SUN_RADIUS, 20000)
+    level = np.sqrt(1.0 - up**2)
+    sun = np.stack([level[0], np.zeros(20000), up[0]], axis=1)
+    eye = np.stack([-level[1] * np.cos(azimuth), level[1] * np.sin(azimuth), up[1]], axis=1)
+    found = glint(KINDS["glass"], np.ones(20000), UP, sun, eye)
+    assert 0.3 < found.max() * np.pi * SUN_RADIUS**2 <= 1.0 + 1e-9
+
+
 def test_no_glint_from_a_sun_below_the_face() -> None:
     rng = np.random.default_rng(1)
     sun, eye = rng.normal(size=(2, 200, 3))

@@ -1,8 +1,6 @@
 """Glossy surfaces in a reflective band: the shader against its twin, under light of one radiance, and in pictures."""
 
 from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import moderngl
 import numpy as np
@@ -10,17 +8,17 @@ import pytest
 from gloss_twin import glossy
 from glsl_harness import evaluate
 from picture_twin import pixel_rays
-from small_world import DAY, SETTINGS, box, feature, random_normals, write_town
+from pond_world import NORTH, pond, southern
+from small_world import random_normals
 
 from sensorsim.effects import read_choice
-from sensorsim.environment import clear_glow, read_weather
+from sensorsim.environment import clear_glow
 from sensorsim.gpu import constants_glsl, float_table
 from sensorsim.materials.gloss import load_gloss
-from sensorsim.render import Camera, Renderer, World, build_world, look_at
+from sensorsim.render import Camera, Renderer, look_at
 from sensorsim.render.blocks import ILLUMINATION
 from sensorsim.render.illumination import SKY_ENTRIES, Illumination, dark
 from sensorsim.render.mirror import mirror_glsl
-from sensorsim.scene import load_scene
 from sensorsim.sensor import load_sensor
 from sensorsim.thermal import quadrant_view_factors
 
@@ -103,48 +101,24 @@ def _glossy(ctx: moderngl.Context, light: Illumination, inputs: dict[str, np.nda
     return shaded.astype(np.float64)
 
 
-@pytest.fixture(scope="module")
-def pond() -> World:
-    """Water and a hall of glass on a lawn, 0.05 m of it above the ground."""
-    features = [
-        feature(box(0.0, 0.0, 500.0, 500.0), 0.0, word="9420"),
-        feature(box(0.0, 0.0, 200.0, 200.0), 0.05, word="9805"),
-        feature(box(0.0, 140.0, 40.0, 30.0), 14.0, roof_word="4008", wall_word="4008", interior="heated"),
-    ]
-    with TemporaryDirectory() as folder:
-        scene = load_scene(write_town(Path(folder), features))
-    return build_world(scene, read_weather("winter"), image_day=DAY, settings=SETTINGS, sensor=load_sensor("lltv"))
-
-
-NORTH = look_at([0.0, 90.0, 30.0], [0.0, 0.0, 0.0], 60.0)  # into the sun of `_southern`
-
-
-def _southern(beam: float, height: float = 0.35, wind: float = 0.0) -> Illumination:
-    """Light from the south, `height` its upward component, under an even sky."""
-    return replace(
-        dark(), sun_direction=np.array([0.0, -np.sqrt(1.0 - height**2), height]), beam=beam,
-        quadrant=np.full(4, np.pi / 4.0 * 10.0), sky=np.full(SKY_ENTRIES, 10.0), ground_radiance=3.0, wind_speed=wind,
-    )  # fmt: skip
-
-
 @pytest.mark.parametrize("beam", [200.0, 3e-4])  # of the sun, and of the moon
-def test_calm_water_glitters_where_it_mirrors_the_light(pond: World, beam: float) -> None:
-    with Renderer(pond, load_sensor("lltv"), size=(120, 90), atmosphere="none") as renderer:
+def test_calm_water_glitters_where_it_mirrors_the_light(beam: float) -> None:
+    with Renderer(pond(), load_sensor("lltv"), size=(120, 90), atmosphere="none") as renderer:
         lit, unlit = (
-            renderer.render(NORTH, 43200.0, illumination=_southern(light)).planes["radiance"] for light in (beam, 0.0)
+            renderer.render(NORTH, 43200.0, illumination=southern(light)).planes["radiance"] for light in (beam, 0.0)
         )
     more = (lit - unlit) / beam
     row, column = np.unravel_index(np.argmax(more), more.shape)
     ray = pixel_rays(NORTH, (120, 90))[row, column]
-    towards = ray * [1.0, 1.0, -1.0] @ _southern(beam).sun_direction
+    towards = ray * [1.0, 1.0, -1.0] @ southern(beam).sun_direction
     assert np.degrees(np.arccos(towards)) < 6.0  # waves of a calm lean it to grazing angles
     assert more.max() > 0.3
 
 
-def test_wind_spreads_the_glitter_and_takes_its_peak(pond: World) -> None:
-    with Renderer(pond, load_sensor("lltv"), size=(120, 90), atmosphere="none") as renderer:
+def test_wind_spreads_the_glitter_and_takes_its_peak() -> None:
+    with Renderer(pond(), load_sensor("lltv"), size=(120, 90), atmosphere="none") as renderer:
         calm, windy = (
-            renderer.render(NORTH, 43200.0, illumination=_southern(200.0, wind=wind)).planes["radiance"]
+            renderer.render(NORTH, 43200.0, illumination=southern(200.0, wind=wind)).planes["radiance"]
             for wind in (0.0, 10.0)
         )
     assert windy.max() < 0.5 * calm.max()
@@ -153,13 +127,11 @@ def test_wind_spreads_the_glitter_and_takes_its_peak(pond: World) -> None:
 
 @pytest.mark.parametrize("camera", [NORTH, look_at([0.0, -160.0, 25.0], [0.0, 60.0, 5.0], 50.0)])
 @pytest.mark.parametrize("hour", [0.5, 13.0])
-def test_mirrors_of_a_low_light_picture_are_worth_less_than_their_bound(
-    pond: World, camera: Camera, hour: float
-) -> None:
+def test_mirrors_of_a_low_light_picture_are_worth_less_than_their_bound(camera: Camera, hour: float) -> None:
     """By night, of the sky alone, and by day; the picture without them is that of the effect left out."""
     pictures = []
     for text in ("all", "all,-specular"):
-        with Renderer(replace(pond, choice=read_choice(text)), load_sensor("lltv"), size=(120, 90)) as renderer:
+        with Renderer(replace(pond(), choice=read_choice(text)), load_sensor("lltv"), size=(120, 90)) as renderer:
             pictures.append(renderer.render(camera, 3600.0 * hour))
     change = float(np.abs(pictures[0].planes["radiance"] - pictures[1].planes["radiance"]).max())
     row = pictures[1].ledger.row("specular")
@@ -167,8 +139,8 @@ def test_mirrors_of_a_low_light_picture_are_worth_less_than_their_bound(
     assert not row.on
 
 
-def test_frames_for_display_alone_glitter_as_whole_ones(pond: World) -> None:
-    with Renderer(pond, load_sensor("lltv"), size=(120, 90)) as renderer:
+def test_frames_for_display_alone_glitter_as_whole_ones() -> None:
+    with Renderer(pond(), load_sensor("lltv"), size=(120, 90)) as renderer:
         for hour in (0.5, 12.0):
             quick = renderer.render(NORTH, 3600.0 * hour, planes=("display",)).planes["display"]
             whole = renderer.render(NORTH, 3600.0 * hour).planes["display"]

@@ -32,6 +32,7 @@ LOOKED_AT = (
     "interlace",
     "dead_elements",
     "replacement",
+    "blooming",
 )
 
 

@@ -31,7 +31,7 @@ AnyLevel = Annotated[
 Preset = Annotated[str, typer.Option(help="How finely to bake: draft, report, standard or reference.")]
 Backend = Annotated[str, typer.Option(help="OpenGL back end: auto, egl, osmesa or x11.")]
 Effects = Annotated[
-    str, typer.Option(help="auto, all, none, or single effects: +name,-name; `sensorsim effects` lists them.")
+    str, typer.Option(help="auto, all, none, single effects: +name,-name, what auto may change: auto,0.1K.")
 ]
 Atmosphere = Annotated[
     str, typer.Option(help="standard (from the weather), report (eq. 15), or modtran (its tables' summer day).")

@@ -14,15 +14,16 @@ from sensorsim.effects.frame_bounds import (
     Look,
     Mirrors,
     apparent_factor,
-    brightest_glint,
+    diffuse_irradiance,
     emissive_bounds,
     reflective_bounds,
     reflective_tolerance,
 )
+from sensorsim.effects.glint import Gleam, Glossy, gleam
 from sensorsim.effects.ledger import DEFAULT_NOISE, NOISE_SHARE, Bound, Ledger, LedgerRow, decide
 from sensorsim.effects.plan import EVERYTHING, EffectPlan
 from sensorsim.effects.sensor_bounds import sensor_bounds, signal_tolerance
-from sensorsim.effects.surface_bounds import QUARTERS, Situation, film_bound, surface_bounds
+from sensorsim.effects.surface_bounds import QUARTERS, Situation, film_bound, reflectance_bound, surface_bounds
 
 __all__ = [
     "DEFAULT_NOISE",
@@ -40,6 +41,8 @@ __all__ = [
     "EffectChoice",
     "EffectPlan",
     "Face",
+    "Gleam",
+    "Glossy",
     "Ledger",
     "LedgerRow",
     "Limits",
@@ -48,12 +51,14 @@ __all__ = [
     "Situation",
     "apparent_factor",
     "applicable",
-    "brightest_glint",
     "decide",
+    "diffuse_irradiance",
     "emissive_bounds",
     "film_bound",
+    "gleam",
     "march_cost",
     "read_choice",
+    "reflectance_bound",
     "reflective_bounds",
     "reflective_tolerance",
     "sensor_bounds",

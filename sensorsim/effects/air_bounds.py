@@ -17,6 +17,7 @@ class AirBefore:
     surface_heights: tuple[float, float]  # lowest and highest of surfaces that may be in view [m]
     longest_range: float  # of them [m]
     ground_range: float  # of the ground plane where it may be in view [m]; 0 where it is not, infinite at the horizon
+    facing_light: float = 1.0  # greatest cosine of the angle between a ray of the picture and the sun or moon [-]
 
     @property
     def worst_opacity(self) -> float:
@@ -57,9 +58,10 @@ class AirBefore:
         return np.asarray(-np.expm1(-depth))
 
     def _glow(self, heights: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-        """Least and greatest source (k,) [W m-2 sr-1] along the path, with the sun behind and straight ahead."""
+        """Least and greatest source (k,) [W m-2 sr-1] along the path: without the sun, and as near to it as may be."""
         near, slope = self.path.source_at(self.camera_height)
         along = near + np.outer(np.array([self.camera_height, *heights]) - self.camera_height, slope)
-        g = abs(self.path.asymmetry)
-        ahead = self.path.beam_source * ((1.0 + g * g) / (1.0 - g) ** 2) ** 1.5
+        g = self.path.asymmetry
+        nearest = self.facing_light if g > 0.0 else -1.0  # haze of g below 0 sends most of it back
+        ahead = self.path.beam_source * ((1.0 + g * g) / (1.0 + g * g - 2.0 * g * nearest)) ** 1.5
         return along.min(axis=0), along.max(axis=0) + ahead

@@ -16,6 +16,7 @@ class Effect:
     sky: str | None = None  # needs this model of the sky
     mode: str | None = None  # needs a sensor of this mode
     part: bool = False  # needs a sensor that has this in its chain
+    optional: bool = False  # computed where asked for, and not by its bound
 
 
 def _surface(name: str, meaning: str, without: str, sky: str | None = None, mode: str | None = None) -> Effect:
@@ -49,7 +50,10 @@ EFFECTS = (
     _surface("rain", "rain on surfaces: its heat, and the film that stays", "surfaces that no rain hits"),
     _surface("evaporation", "water that evaporates or comes down as dew", "dry surfaces"),
     _surface("snow", "snow on the ground and its melting", "bare ground"),
-    _surface("exchange", "long waves and light between near surfaces", "each surface alone under its sky"),
+    Effect(
+        name="exchange", stage=SURFACE, meaning="long waves and light between near surfaces",
+        without="each surface alone under its sky", optional=True,
+    ),
     _surface("interior", "heat from or to what lies behind the wall", "an inner face that no heat passes"),
     _surface("spare_orientations", "walls of orientations that no surface has", "orientations in the scene alone"),
     _surface("spare_reflectances", "walls of reflectances that no surface has", "reflectances in the scene alone"),
@@ -76,12 +80,17 @@ BY_NAME = {effect.name: effect for effect in EFFECTS}
 NOT_MODELLED = (
     "cast shadows, and surfaces in each other's way, except by the optional exchange",
     "surfaces in each other's mirrors, and the sun in those of emissive bands",
+    "sunlight that surfaces reflect in emissive bands, which counts by day in 3 to 5 um",
     "conduction along a wall, and across its edges",
+    "differences within a surface: texture, wear, dirt and damp",
+    "what lies behind windows, as seen through them",
+    "relief: the ground is level all around",
     "blur by motion of the camera or of what it sees, beyond the sensor's own jitter and drift",
     "scattering of sunlight along the path in emissive bands, turbulence, and polarisation",
+    "clouds of any shape: cover is the same all over the sky, and no shadow of a cloud passes",
     "weather aloft: above the station the air thins out and cools as in the standard atmosphere",
-    "lamps and fires",
-    "plumes, vehicles and people",
+    "lamps, fires and the light of cities",
+    "plumes and people, and vehicles but those that a trainer's host places, which shade and warm nothing around them",
     "wind that buildings turn aside",
     "water that runs, ponds or freezes on surfaces, and snow on roofs and trees",
 )

@@ -1,7 +1,8 @@
-"""What a user asks for: auto, all or none of the effects, and single ones on or off."""
+"""What a user asks for: auto, all or none of the effects, single ones on or off, and what auto may change."""
 
+import math
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sensorsim.effects.catalogue import BY_NAME, SURFACE, Effect
 from sensorsim.effects.plan import require_known
@@ -17,15 +18,18 @@ class EffectChoice:
     base: str = "auto"
     wanted: frozenset[str] = frozenset()
     refused: frozenset[str] = frozenset()
+    tolerance: float | None = None  # [K] of all that bounds may leave out; None: by the sensor's noise
 
     def __post_init__(self) -> None:
-        """Refuse unknown words, and effects that are wanted and refused at once."""
+        """Refuse unknown words, effects that are wanted and refused at once, and a tolerance that is none."""
         if self.base not in BASES:
             raise InputError("effects", "choice", self.base, "unknown", f"begin with one of {', '.join(BASES)}")
         for name in sorted(self.wanted | self.refused):
             require_known(name)
         for name in sorted(self.wanted & self.refused):
             raise InputError("effects", "choice", f"+{name},-{name}", "on and off at once", "keep one of the two")
+        if self.tolerance is not None and not 0.0 <= self.tolerance < math.inf:
+            raise InputError("effects", "tolerance", self.tolerance, "not a number from 0 on", "give kelvin: 0.1K")
 
     def asked(self, name: str) -> bool | None:
         """True or False where the user decides, None where the bounds do."""
@@ -37,15 +41,15 @@ class EffectChoice:
     def text(self) -> str:
         """As `read_choice` takes it."""
         signs = [f"+{name}" for name in sorted(self.wanted)] + [f"-{name}" for name in sorted(self.refused)]
-        return ",".join((self.base, *signs))
+        return ",".join((self.base, *signs, *([] if self.tolerance is None else [f"{self.tolerance!r}K"])))
 
     def with_refused(self, name: str) -> "EffectChoice":
         """The choice with one effect left out as well; InputError where it is wanted."""
-        return EffectChoice(base=self.base, wanted=self.wanted, refused=self.refused | {name})
+        return replace(self, refused=self.refused | {name})
 
     def with_wanted(self, name: str) -> "EffectChoice":
         """The choice with one effect asked for as well; InputError where it is refused."""
-        return EffectChoice(base=self.base, wanted=self.wanted | {name}, refused=self.refused)
+        return replace(self, wanted=self.wanted | {name})
 
     @property
     def wants_temperature(self) -> bool:
@@ -61,6 +65,9 @@ class EffectChoice:
             missing = _missing(BY_NAME[name], sky, mode, BY_NAME if parts is None else parts)
             if missing is not None:
                 raise InputError("effects", "choice", f"+{name}", f"its inputs are missing: {missing}", "leave it out")
+        if mode != "emissive" and self.tolerance is not None:
+            problem = f"its inputs are missing: kelvin need a sensor in an emissive band, this one is {mode}"
+            raise InputError("effects", "tolerance", f"{self.tolerance!r}K", problem, "leave it out")
         if mode == "emissive" and "temperature" in self.refused:
             problem = "an emissive sensor sees nothing else"
             raise InputError("effects", "choice", "-temperature", problem, "leave it on, or take a reflective sensor")
@@ -82,13 +89,29 @@ def applicable(effects: Iterable[Effect], *, sky: str, mode: str, parts: Collect
 
 
 def read_choice(text: str) -> EffectChoice:
-    """Choice from `auto`, `all`, `none`, `+name,-name` (to `auto`), or `none,+name`."""
+    """Choice from `auto`, `all`, `none`, `+name,-name` (to `auto`), or `none,+name`; a tolerance as `auto,0.1K`."""
     words = [word.strip() for word in text.split(",")]
+    given = [word for word in words if word.endswith("K")]
+    words = [word for word in words if word not in given] or ["auto"]
     base = "auto" if words[0][:1] in ("+", "-") else words.pop(0)
+    if base in BY_NAME:
+        raise InputError("command line", "--effects", text, f"'{base}' has no sign", f"write +{base} or -{base}")
     for word in words:
         if word[:1] not in ("+", "-"):
-            remedy = f"write {', '.join(BASES)}, +name or -name, with commas between"
+            remedy = f"write {', '.join(BASES)}, +name, -name or a tolerance in K, with commas between"
             raise InputError("command line", "--effects", text, f"'{word}' has no sign", remedy)
     wanted = frozenset(word[1:] for word in words if word[0] == "+")
     refused = frozenset(word[1:] for word in words if word[0] == "-")
-    return EffectChoice(base=base, wanted=wanted, refused=refused)
+    return EffectChoice(base=base, wanted=wanted, refused=refused, tolerance=_kelvin(text, given))
+
+
+def _kelvin(text: str, given: list[str]) -> float | None:
+    """Tolerance [K] of one word or none."""
+    if not given:
+        return None
+    try:
+        (value,) = (float(word.removesuffix("K")) for word in given)
+    except ValueError as error:
+        problem = "not one number in kelvin"
+        raise InputError("command line", "--effects", text, problem, "write for example auto,0.1K") from error
+    return value

@@ -15,8 +15,8 @@ from sensorsim.constants import PI
 from sensorsim.effects.air_bounds import AirBefore
 from sensorsim.effects.costs import pixel_cost
 from sensorsim.effects.face import FloatArray
+from sensorsim.effects.glint import Gleam
 from sensorsim.effects.ledger import NOISE_SHARE, Bound
-from sensorsim.environment import SUN_RADIUS
 from sensorsim.radiometry import BandTable
 
 GREY_STEPS = 255.0  # of a display, from a black surface to a white one in the light of the moment
@@ -39,6 +39,7 @@ class Look:
     emissivity: FloatArray  # (s,) in band, without gloss [-]
     reflectance: FloatArray  # (s,) in band [-]
     mirrors: Mirrors
+    gleam: Gleam  # of those in a reflective band
     coldest: float  # of all surfaces at the moment, or a bound of it [K]
     warmest: float  # the same
     sun_direction: FloatArray  # (3,)
@@ -85,15 +86,15 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
     alone = matt * own.least
     dimmest = min(_mix(matt, own.least, mean.least), _mix(glossy, own.least, spots.least))
     lost = max((1.0 - matt) * mean.greatest, _worth_of_emission_alone(look.mirrors, own, spots))
-    mirrors, cost = _worth_of_mirrors(look.mirrors, own, mean, spots), pixel_cost(look.pixels)
+    mirrors = _worth_of_mirrors(look.mirrors, own, mean, spots)
     count = look.mirrors.matt.size
     return {
         "reflected_sky": Bound(
-            value=_kelvin(table, min(alone, dimmest), lost), saves=cost,
+            value=_kelvin(table, min(alone, dimmest), lost), saves=pixel_cost("reflected_sky", look.pixels),
             reason=f"least emissivity {min(matt, glossy):.3g}",
         ),
         "specular": Bound(
-            value=_kelvin(table, dimmest, mirrors), saves=cost if count else 0.0,
+            value=_kelvin(table, dimmest, mirrors), saves=pixel_cost("specular", look.pixels) if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "atmosphere": _air(look, dimmest if mirrored else alone, max(own.greatest, spots.greatest), table),
@@ -102,29 +103,31 @@ def emissive_bounds(look: Look, table: BandTable, *, mirrored: bool = True) -> M
 
 def reflective_bounds(look: Look) -> Mapping[str, Bound]:
     """Bounds [W m-2 sr-1] of radiance. Light of sky and ground is what such a band is about, and no effect."""
-    share, count, cost = look.reflectance / PI, look.mirrors.matt.size, pixel_cost(look.pixels)
+    share, count = look.reflectance / PI, look.mirrors.matt.size
     direct = float(np.max(share * look.beam * np.maximum(look.normal @ look.sun_direction, 0.0), initial=0.0))
-    sky = 4.0 * float(look.quadrant.max()) * 0.5 * (1.0 + look.normal[:, 2])
-    ground = PI * look.ground_radiance * 0.5 * (1.0 - look.normal[:, 2])
-    matt = direct + float(np.max(share * (sky + ground), initial=0.0))
-    glint = brightest_glint(look)
-    mirrored = max(look.sky_range[1], look.ground_radiance) + glint if count else 0.0
+    sunlit = max(direct, look.gleam.sunlit)
+    matt = direct + float(
+        np.max(share * diffuse_irradiance(look.normal, look.quadrant, look.ground_radiance)[1], initial=0.0)
+    )
     return {
         "specular": Bound(
-            value=matt + mirrored if count else 0.0, saves=cost if count else 0.0,
+            value=look.gleam.change, saves=pixel_cost("specular", look.pixels) if count else 0.0,
             reason=f"{count} glossy surfaces may be in view" if count else "no glossy surface is in view",
         ),
         "reflected_sun": Bound(
-            value=direct + glint, saves=cost,
-            reason="sun or moon lights surfaces" if direct + glint > 0.0 else "neither sun nor moon",
+            value=sunlit, saves=pixel_cost("reflected_sun", look.pixels),
+            reason="sun or moon lights surfaces" if sunlit > 0.0 else "neither sun nor moon",
         ),
-        "atmosphere": _air(look, 0.0, matt + mirrored, None),
+        "atmosphere": _air(look, 0.0, max(matt, look.gleam.sent), None),
     }  # fmt: skip
 
 
-def brightest_glint(look: Look) -> float:
-    """Radiance [W m-2 sr-1] that no glint exceeds: of the light's own disc, where glossy surfaces may be in view."""
-    return look.beam / (PI * SUN_RADIUS**2) if look.mirrors.matt.size else 0.0
+def diffuse_irradiance(
+    normal: FloatArray, quadrant: FloatArray, ground_radiance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest irradiance (s,) [W m-2] of faces (s, 3) by the quarters of the sky and the ground."""
+    ground, share = PI * ground_radiance * 0.5 * (1.0 - normal[:, 2]), 2.0 * (1.0 + normal[:, 2])
+    return ground + share * quadrant.min(), ground + share * quadrant.max()
 
 
 def reflective_tolerance(look: Look) -> float:
@@ -160,7 +163,7 @@ def _air(look: Look, dimmest: float, brightest: float, table: BandTable | None) 
     return Bound(
         value=change if table is None else _kelvin(table, least, change),
         reason=f"a path {path}; up to {100.0 * look.air.worst_opacity:.3g} % of a surface's radiance is lost in it",
-        saves=pixel_cost(look.pixels),
+        saves=pixel_cost("atmosphere", look.pixels),
     )
 
 

@@ -92,15 +92,15 @@ def decide(
         if spent + bounds[name].value <= tolerance:
             spent += bounds[name].value
             off.add(name)
-    return tuple(_row(effect.name, effect.name not in off, bounds, choice, tolerance, unit) for effect in effects)
+    return tuple(_row(effect, effect.name not in off, bounds, choice, tolerance, unit) for effect in effects)
 
 
 def _row(
-    name: str, on: bool, bounds: Mapping[str, Bound], choice: EffectChoice, tolerance: float, unit: str
+    effect: Effect, on: bool, bounds: Mapping[str, Bound], choice: EffectChoice, tolerance: float, unit: str
 ) -> LedgerRow:
-    bound = bounds[name]
+    name, bound = effect.name, bounds[effect.name]
     reason = bound.reason
-    if choice.asked(name) is not None:
+    if choice.asked(name) is not None and (on or not effect.optional):
         reason = f"{'asked for' if on else 'left out on request'}; {reason}"
     return LedgerRow(
         effect=name,

@@ -26,7 +26,7 @@ def sensor_bounds(parts: Collection[str], look: Sensitivity, *, brightest: float
     return {
         part: Bound(
             value=max(look.full, brightest / FILLED), reason=_REASON[part].format(deviation=deviation),
-            saves=pixel_cost(pixels),
+            saves=pixel_cost(part, pixels),
         )
         for part in parts
     }  # fmt: skip

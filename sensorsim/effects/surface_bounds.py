@@ -119,6 +119,19 @@ def film_bound(situation: Situation) -> Bound:
     return _worth(_cases(replace(situation, film_kept=False)), *_RULES["forced_convection"])
 
 
+def reflectance_bound(situation: Situation, misses: Sequence[float]) -> float:
+    """Most kelvin between faces as polynomials in reflectance have them and as they are.
+
+    `misses` [-]: how far in reflectance the polynomial of each face reaches, times which the light is absorbed or not.
+    """
+    found = [0.0]
+    for case, miss in zip(_cases(situation)[1:], misses, strict=True):
+        drying = case.latent if miss > 0.0 and case.face.latent_by_light else 0.0
+        flux = miss * case.face.light + (drying if case.face.light > 0.0 else 0.0)
+        found.append(min(flux * case.per_flux, case.warmest - case.limits.coldest))
+    return max(found)
+
+
 def _cases(situation: Situation) -> tuple[_Case, ...]:
     """The ground plane, and all faces."""
     limits = situation.limits

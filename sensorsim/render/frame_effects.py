@@ -14,13 +14,13 @@ from sensorsim.effects import (
     FRAME,
     AirBefore,
     EffectChoice,
+    Gleam,
     Ledger,
     LedgerRow,
     Limits,
     Look,
     Mirrors,
     applicable,
-    brightest_glint,
     decide,
     emissive_bounds,
     reflective_bounds,
@@ -31,9 +31,10 @@ from sensorsim.effects import (
 from sensorsim.radiometry import BandTable, build_band_table
 from sensorsim.render.air import DEFAULT_ATMOSPHERE
 from sensorsim.render.camera import Camera
+from sensorsim.render.glossy_view import gleam_in_view
 from sensorsim.render.illumination import Illumination, illuminate
 from sensorsim.render.mirror import gloss_records, rise_table
-from sensorsim.render.ranges import ground_range, in_view
+from sensorsim.render.ranges import ground_range, half_field, in_view
 from sensorsim.render.surface_table import surface_codes
 from sensorsim.render.survey import Survey, tolerance_of
 from sensorsim.render.world import World
@@ -70,7 +71,7 @@ def frame_ledger(
     `extremes` gives the coldest and the warmest surface of the moment [K], where they are known. It is called only
     where the path is so short that the limits of all times might be too wide for it.
     """
-    look = _look(decided, camera, size, illumination)
+    look = _look(decided, camera, size, illumination, emissive=table is not None)
     mode = "reflective" if table is None else "emissive"
     effects = applicable((effect for effect in EFFECTS if effect.stage == FRAME), sky="", mode=mode)
     if table is None:
@@ -84,19 +85,19 @@ def frame_ledger(
         mirrored = decided.choice.asked("reflected_sky") is not False
         rows = decide(
             effects, emissive_bounds(look, table, mirrored=mirrored), decided.choice,
-            tolerance=_noise_of(sensor)[0], unit="K", spent=decided.ledger.spent,
+            tolerance=_noise_of(sensor, decided.choice)[0], unit="K", spent=decided.ledger.spent,
         )  # fmt: skip
     return decided.ledger.with_rows((*rows, *_chain_rows(decided.choice, sensor, look, table)))
 
 
 def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTable | None) -> tuple[LedgerRow, ...]:
     """Rows of the parts of a sensor's chain; none for an ideal sensor."""
-    parts, (_, state) = sensor_parts(sensor), _noise_of(sensor)
+    parts, state = sensor_parts(sensor), _noise_of(sensor, choice)[1]
     if state is None:
         return ()
     if table is None:
         lit = (look.beam + 4.0 * float(look.quadrant.sum())) / PI + look.ground_radiance
-        brightest = lit + look.sky_range[1] + look.air.brightest + brightest_glint(look)
+        brightest = lit + look.sky_range[1] + look.air.brightest + look.gleam.sent
     else:
         brightest = float(table.radiance[-1])  # a frame beyond is refused
     bounds = sensor_bounds(parts, state, brightest=brightest, pixels=look.pixels)
@@ -105,9 +106,9 @@ def _chain_rows(choice: EffectChoice, sensor: Sensor, look: Look, table: BandTab
 
 
 @lru_cache(maxsize=16)
-def _noise_of(sensor: Sensor) -> tuple[float, Sensitivity | None]:
+def _noise_of(sensor: Sensor, choice: EffectChoice) -> tuple[float, Sensitivity | None]:
     """Tolerance [K] and sensitivity of a sensor, which ask for integrals over its band: None of an ideal one."""
-    return tolerance_of(sensor), None if sensor.detector is None else sensitivity(sensor)
+    return tolerance_of(sensor, choice), None if sensor.detector is None else sensitivity(sensor)
 
 
 def world_extremes(world: World, time_of_day: float) -> tuple[float, float]:
@@ -141,13 +142,19 @@ def survey_ledger(
     return frame_ledger(survey, sensor, table, camera, size, illumination)
 
 
-def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination: Illumination) -> Look:
+def _look(
+    decided: Decided, camera: Camera, size: tuple[int, int], illumination: Illumination, *, emissive: bool
+) -> Look:  # fmt: skip
     seen, assignment, sky = in_view(camera, size, decided.scene.mesh), decided.assignment, illumination.sky
+    gleam = Gleam()
+    if not emissive:
+        gleam = gleam_in_view(decided.scene, assignment, camera, size, seen.surface, illumination)
     return Look(
         normal=decided.scene.surfaces.normal[seen.surface],
         emissivity=assignment.emissivity[seen.surface],
         reflectance=assignment.nir_reflectance[seen.surface],
         mirrors=_mirrors(assignment, seen.surface),
+        gleam=gleam,
         coldest=decided.limits.coldest,
         warmest=decided.limits.greatest,
         sun_direction=np.asarray(illumination.sun_direction),
@@ -162,9 +169,16 @@ def _look(decided: Decided, camera: Camera, size: tuple[int, int], illumination:
             surface_heights=seen.heights,
             longest_range=seen.longest_range,
             ground_range=ground_range(camera, size),
+            facing_light=_facing_light(camera, size, illumination),
         ),
         pixels=size[0] * size[1],
     )
+
+
+def _facing_light(camera: Camera, size: tuple[int, int], illumination: Illumination) -> float:
+    """Greatest cosine of the angle between a ray of the picture and the sun or moon [-]."""
+    off = np.arccos(np.clip(float(camera.axes()[0] @ illumination.sun_direction), -1.0, 1.0))
+    return float(np.cos(max(off - half_field(camera, size), 0.0)))
 
 
 def _mirrors(assignment: Assignment, surface: NDArray[np.int64]) -> Mirrors:

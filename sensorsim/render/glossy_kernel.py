@@ -12,6 +12,7 @@ Array = NDArray[Any]
 _NONE, _ONE = np.float32(0.0), np.float32(1.0)
 _DISC = 0.25 * SUN_RADIUS**2
 _LEAST_COSINE = 1e-4
+_BRIGHTEST = 0.25 / (np.pi * _DISC)  # [sr-1] the disc itself, over its irradiance
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -54,15 +55,16 @@ def glossy(
         source[x] = (sent[1] + (_ONE - sent[1]) * share) * sky + sent[0] * (_ONE - share)
         if lit:
             shown = sun_seen * between(seen, np.float32(out)) / (4.0 * out)
-            source[x] += beam * shown * _facing_facets(eye, plane, sun, facing, cosine, variance, sent[1], single)
+            density, mirrored = _facing_facets(eye, plane, sun, facing, cosine, variance, sent[1], single)
+            source[x] += beam * mirrored * min(density * shown, _BRIGHTEST)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _facing_facets(
     eye: tuple[float, float, float], plane: Array, sun: Array, facing: float, cosine: float, variance: float,
     facet: float, rise: Array,
-) -> Any:  # fmt: skip
-    """Density of facets that mirror the light into the eye, times their reflectance."""
+) -> tuple[Any, Any]:  # fmt: skip
+    """Density of facets that mirror the light into the eye, and their reflectance."""
     length = np.sqrt((sun[0] + eye[0]) ** 2 + (sun[1] + eye[1]) ** 2 + (sun[2] + eye[2]) ** 2)
     upright, incidence = (facing + cosine) / length, 0.5 * length
     tilt, across, in_plane = 0.0, 0.0, 0.0
@@ -74,4 +76,4 @@ def _facing_facets(
     wide, broad = variance + _DISC, variance + _DISC / (incidence * incidence)
     density = np.exp(-in_plane / wide - max(tilt - in_plane, 0.0) / broad) / np.sqrt(wide * broad)
     mirrored = facet + (1.0 - facet) * between(rise, np.float32(incidence))
-    return density * mirrored / (np.pi * upright**4)
+    return density / (np.pi * upright**4), mirrored

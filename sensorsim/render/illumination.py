@@ -4,6 +4,7 @@ Emissive bands: sky and ground glow by their own temperatures. Reflective bands:
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -153,8 +154,12 @@ def _sines() -> FloatArray:
     return np.linspace(0.0, 1.0, SKY_ENTRIES)
 
 
+LIGHT = ("atmosphere", "reflected_sun")  # effects of a frame that are left out of its surroundings themselves
+
+
+@lru_cache(maxsize=16)
 def seen_with(illumination: Illumination, plan: EffectPlan) -> Illumination:
-    """The surroundings by a plan: without its air, or without the sun's light on surfaces, where these are left out."""
+    """The surroundings by a plan, without its air or the sun's light on surfaces; the same ones for the same."""
     if not plan.has("atmosphere"):
         illumination = replace(illumination, air=clear_path())
     return illumination if plan.has("reflected_sun") else replace(illumination, beam=0.0)

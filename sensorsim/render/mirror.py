@@ -41,6 +41,7 @@ def rise_table() -> FloatArray:
     return np.stack([gloss.rise for gloss in load_gloss()])
 
 
+@lru_cache(maxsize=64)
 def facet_table(wind_speed: float) -> FloatArray:
     """Of each kind's facets in 0.8-1.1 um, in a wind [m s-1]: rows (3 kinds, ANGLE_ENTRIES + 1) against the cosine.
 

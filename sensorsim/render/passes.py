@@ -89,13 +89,12 @@ def surface_pass(
 
 def background_pass(ctx: moderngl.Context, generated: Mapping[str, str], defines: Mapping[str, int]) -> Pass:
     """Sky and far ground where no surface is: band radiance [W m-2 sr-1]."""
-    glow = () if defines["EMISSIVE"] else ("sky_gradation_table", "sky_indicatrix_table")
     return Pass(
         ctx,
         "scene/background.vert",
         "scene/background.frag",
         blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-        samplers=("sky_radiance_table", *glow),
+        samplers=("sky_radiance_table", "sky_gradation_table", "sky_indicatrix_table"),
         generated=generated,
         defines=defines,
     )

@@ -44,8 +44,8 @@ def light_rows(
     numbers (height, width) from the lowest row up, of surfaces plus one; ends: of their runs; rays (3, 3): through the
     lower left corner, along width and height. planes, sent: of the scene's surfaces and of solids that follow on them.
     gloss (s,): kind or -1. around: sky, gradation, indicatrix, rise (kinds, n), mirror (kinds, m), ground's radiance
-    (1,), in reflective bands with the beam (2,) and tables as `glossy` has them. air: terms and direction of the sun
-    with the asymmetry, see `through_air`.
+    (1,), in reflective bands with the beam (2,) and tables as `glossy` has them. air: terms, none where there is
+    no air, and direction of the sun with the asymmetry, see `through_air`.
     """
     height, width = numbers.shape
     source, away, scratch = np.zeros(width, np.float32), np.zeros(width, np.float32), np.zeros((4, width), np.float32)
@@ -69,7 +69,7 @@ def light_rows(
                 if which == 0 and gloss[place] >= 0:
                     _gleam(ray, along, plane, sends, gloss[place], around, air[1], begin, end, source)
             begin, run = end, run + 1
-        if clear:
+        if clear or air[0].shape[0] == 0:
             light[y] = source
         else:
             through_air(ray, along, source, away, air[0], air[1], scratch, light[y])

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from sensorsim.environment import clear_path
 from sensorsim.radiometry import BandTable
 from sensorsim.render.air_kernel import GENTLE
 from sensorsim.render.camera import Camera
@@ -12,7 +13,7 @@ from sensorsim.render.illumination import Illumination
 from sensorsim.render.pixel_kernels import find_runs, light_rows
 from sensorsim.render.planes import Planes, triangle_planes
 from sensorsim.render.solids import Solids
-from sensorsim.render.surface_light import SurfaceLight
+from sensorsim.render.surface_light import SurfaceLight, of_solids
 from sensorsim.render.surface_table import SurfaceRows
 from sensorsim.render.world import World
 
@@ -46,7 +47,8 @@ class QuickLight:
         planes, sent = _NO_PLANES, _NONE_SENT
         if solids is not None:
             planes = triangle_planes(solids.triangles)
-            sent = self.surfaces.of_solids(solids, illumination)
+            sent = np.zeros((len(planes), 2), np.float32)
+            sent[:, 0] = of_solids(solids, illumination, self.surfaces.band_table)
         seen, ends = np.zeros(self.gloss.size + len(planes) + 1, np.bool_), self.ends
         self.each(len(numbers), lambda first, last: find_runs(numbers, first, last, ends, seen))
         settled = self.surfaces.settle(time_of_day, illumination, seen[1 : self.gloss.size + 1])
@@ -84,7 +86,9 @@ class QuickLight:
 
 
 def _air_terms(illumination: Illumination, camera: Camera, most: float) -> tuple[Single, NDArray[np.float64]]:
-    """Terms (k, 7) of the air for rises of `most` [m], and direction of the sun with the asymmetry (4,)."""
+    """Terms (k, 7) of the air for rises of `most` [m], none of none; direction of the sun with the asymmetry (4,)."""
+    if illumination.air is clear_path():
+        return np.zeros((0, 7), np.float32), np.append(illumination.sun_direction, 0.0)
     height = float(camera.position[2])
     air = illumination.air.seen_from(height)
     source, slope = air.source_at(height)

@@ -63,6 +63,11 @@ def ground_range(camera: Camera, size: tuple[int, int]) -> float:
     return _descent(camera, size, max(float(camera.position[2]), 0.0))
 
 
+def half_field(camera: Camera, size: tuple[int, int]) -> float:
+    """Greatest angle [rad] between the camera's axis and a ray of the picture: that of its corners."""
+    return float(np.arctan(np.hypot(*camera.half_extent(size))))
+
+
 def _descent(camera: Camera, size: tuple[int, int], drop: float) -> float:
     """Length [m] of the ray that takes longest to go down by `drop` [m]; infinite where one does not go down."""
     # Directions that go down steeper than an angle form a convex cone: the corners of the picture have the flattest.

@@ -19,7 +19,7 @@ from sensorsim.render.camera import Camera
 from sensorsim.render.detail import DetailRule
 from sensorsim.render.display_stage import DisplayStage
 from sensorsim.render.frame_effects import frame_ledger, world_extremes
-from sensorsim.render.illumination import Illumination, illuminate, seen_with
+from sensorsim.render.illumination import LIGHT, Illumination, illuminate, seen_with
 from sensorsim.render.level_of_detail import LevelOfDetail
 from sensorsim.render.moment import MomentTables
 from sensorsim.render.nearest import Nearest
@@ -28,6 +28,7 @@ from sensorsim.render.picture import QUANTITIES, Picture, exposed, wanted_planes
 from sensorsim.render.quick_road import QuickRoad, quick_planes
 from sensorsim.render.sensor_chain import SensorChain
 from sensorsim.render.solids import SolidPass, Solids
+from sensorsim.render.surface_light import of_solids
 from sensorsim.render.surface_table import surface_codes, surface_rows
 from sensorsim.render.variants import Programs
 from sensorsim.render.world import World, require_temperature
@@ -108,8 +109,9 @@ class Renderer:
         Planes: display, radiance [W m-2 sr-1], surface_temperature [K], range [m], surface_id, feature, material (its
         code), in emissive bands apparent_temperature [K], and of a sensor with a detector its signal [W m-2 sr-1] and
         raw counts, of the frame of that number; all that the effects leave, or those asked for. Display alone takes a
-        quicker road where no effect is refused: see `quick_frame`; its codes may differ by one. `illumination` replaces
-        that of the moment. `solids` stand among the surfaces; their ids follow on those of the scene.
+        quicker road where no effect is refused but air and direct light: see `quick_frame`; its codes may differ by
+        one. `illumination` replaces that of the moment. `solids` stand among the surfaces; their ids follow on those of
+        the scene.
         """
         wanted = wanted_planes(self.sensor, planes)
         if illumination is None:
@@ -121,6 +123,7 @@ class Renderer:
             road, ledger = self._quick_road() if wanted == {"display"} else None, None
             self._level.look(camera, None if self._quick is None else self._quick.frame)
             if road is not None:
+                illumination = seen_with(illumination, self._unlit)
                 codes, settings = road.show(camera, time_of_day, illumination, chosen, frame, solids, self.watch)
                 found: dict[str, NDArray[Any]] = {"display": codes}
             else:
@@ -129,7 +132,7 @@ class Renderer:
                 self._solids.solids = solids
                 self._moment.set(time_of_day, illumination, plan)
                 self._set_view(camera, illumination)
-                found, settings = self._show_all(camera, chosen, frame, wanted, plan)
+                found, settings = self._show_all(camera, chosen, frame, wanted, plan, illumination)
         return Picture(
             planes=found, display=settings, time_of_day=time_of_day, camera=camera, illumination=illumination,
             ledger=ledger, count_step=None if road or self._chain is None else self._chain.step,
@@ -171,10 +174,9 @@ class Renderer:
         self._programs = Programs(ctx, buffers, self._moment.generated, emissive=emissive)
         choice = self.world.choice
         self._off = {part for part in sensor_parts(self.sensor) if choice.asked(part) is False}
-        self._may_be_quick = all(choice.asked(one.name) is not False for one in EFFECTS if one.stage != SURFACE)
-        self._solids = SolidPass(
-            ctx, self._moment.generated, emissive=emissive, first=self.world.scene.surfaces.area.size
-        )
+        left = {one.name for one in EFFECTS if one.stage != SURFACE and choice.asked(one.name) is False}
+        self._may_be_quick, self._unlit = left <= set(LIGHT), EffectPlan(off=tuple(left.intersection(LIGHT)))
+        self._solids = SolidPass(ctx, self.world.scene.surfaces.area.size)
         self._build_targets()
 
     def _build_targets(self) -> None:
@@ -219,9 +221,15 @@ class Renderer:
         return self._quick
 
     def _show_all(
-        self, camera: Camera, display: DisplaySettings, frame: int, wanted: set[str], plan: EffectPlan
+        self,
+        camera: Camera,
+        display: DisplaySettings,
+        frame: int,
+        wanted: set[str],
+        plan: EffectPlan,
+        illumination: Illumination,
     ) -> tuple[dict[str, NDArray[Any]], DisplaySettings]:
-        self._draw(plan)
+        self._draw(plan, illumination)
         planes = self._read(camera, wanted, plan)
         self._detect(camera, planes, frame)
         seen = exposed(planes)
@@ -230,14 +238,15 @@ class Renderer:
         planes["display"] = self._screen.show(shown, settings, self._gain.curve(settings, seen))
         return {name: plane for name, plane in planes.items() if name in wanted}, settings
 
-    def _draw(self, plan: EffectPlan) -> None:
+    def _draw(self, plan: EffectPlan, illumination: Illumination) -> None:
         self._target.use()
         self._target.clear_depth()
         self.ctx.enable_only(moderngl.NOTHING)
         self._programs.background(plan).draw()
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._programs.surfaces(plan).draw()
-        self._solids.draw()
+        if self._solids.solids is not None:
+            self._solids.draw(of_solids(self._solids.solids, illumination, self.band_table, plan))
 
     def _bind(self) -> None:
         for block in _BLOCKS:

@@ -1,6 +1,5 @@
 """Moving things among the surfaces: triangles with a temperature each, placed anew for every frame."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -9,16 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.errors import InputError
-from sensorsim.gpu import bind_samplers, build_program, constants_glsl
-from sensorsim.render.blocks import AIR, ILLUMINATION, VIEW_FRAME
-from sensorsim.render.passes import TEXTURE_UNITS
+from sensorsim.gpu import build_program
+from sensorsim.render.blocks import AIR, VIEW_FRAME
 
 # Of a vertex: name in the shader, components, type
 _ATTRIBUTES = (
     ("position", 3, "f"),
-    ("normal", 3, "f"),
-    ("sky_quarters", 4, "f"),
-    ("nature", 3, "f"),
+    ("nature", 2, "f"),
     ("surface", 1, "i"),
 )
 _ROW = np.dtype([(name, f"<{kind}4", (count,)) for name, count, kind in _ATTRIBUTES])
@@ -52,13 +48,11 @@ class Solids:
         corners = self.triangles.reshape(-1, 3)
         return np.minimum(lowest, corners.min(axis=0)), np.maximum(highest, corners.max(axis=0))
 
-    def vertices(self, first: int) -> bytes:
-        """Rows of the vertex buffer; ids of surfaces go on from `first`."""
+    def vertices(self, first: int, sent: NDArray[np.floating[Any]]) -> bytes:
+        """Rows of the vertex buffer with the radiance (t,) [W m-2 sr-1] sent; ids of surfaces go on from `first`."""
         record = np.zeros((len(self.triangles), 3), dtype=_ROW)
         record["position"] = self.triangles
-        record["normal"] = self.normal[:, None]
-        record["sky_quarters"] = self.quarters[:, None]
-        record["nature"] = np.stack([self.temperature, self.emissivity, self.reflectance], axis=1)[:, None]
+        record["nature"] = np.stack([sent, self.temperature], axis=1)[:, None]
         record["surface"] = (first + self.number)[:, None, None]
         return record.tobytes()
 
@@ -66,10 +60,10 @@ class Solids:
 class SolidPass:
     """Draws the solids of a frame, `solids`: a program, made when there are any, and a buffer that grows."""
 
-    def __init__(self, ctx: moderngl.Context, generated: Mapping[str, str], *, emissive: bool, first: int) -> None:
+    def __init__(self, ctx: moderngl.Context, first: int) -> None:
         """first: the id that follows on those of the scene's surfaces."""
         self.solids: Solids | None = None
-        self._ctx, self._generated, self._emissive, self._first = ctx, generated, emissive, first
+        self._ctx, self._first = ctx, first
         self._program: moderngl.Program | None = None
         self._buffer: moderngl.Buffer | None = None
         self._array: moderngl.VertexArray | None = None
@@ -78,11 +72,11 @@ class SolidPass:
         """A box (3,), (3,) [m] widened by the solids."""
         return (lowest, highest) if self.solids is None else self.solids.box(lowest, highest)
 
-    def draw(self) -> None:
-        """Draws into the target in use, which has a depth; nothing where there are no solids."""
+    def draw(self, sent: NDArray[np.floating[Any]]) -> None:
+        """Draws solids that send so much (t,) [W m-2 sr-1] into the target in use, which has a depth."""
         if self.solids is None:
             return
-        data = self.solids.vertices(self._first)
+        data = self.solids.vertices(self._first, sent)
         if self._buffer is None or self._array is None or self._buffer.size < len(data):
             for held in (self._array, self._buffer):
                 if held is not None:
@@ -96,12 +90,6 @@ class SolidPass:
         self._array.render(vertices=3 * len(self.solids.triangles))
 
     def _build(self) -> moderngl.Program:
-        samplers = ("band_radiance_table", "rise_table", "mirror_table")
-        program = build_program(
-            self._ctx, vertex="scene/solid.vert", fragment="scene/solid.frag",
-            defines={"EMISSIVE": int(self._emissive)},
-            generated={**self._generated, "constants": constants_glsl()}, blocks=(VIEW_FRAME, ILLUMINATION, AIR),
-            samplers=samplers,
+        return build_program(
+            self._ctx, vertex="scene/solid.vert", fragment="scene/solid.frag", blocks=(VIEW_FRAME, AIR)
         )  # fmt: skip
-        bind_samplers(program, {name: TEXTURE_UNITS[name] for name in samplers})
-        return program

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sensorsim.constants import PI
+from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.materials.facets import ANGLE_ENTRIES
 from sensorsim.radiometry import BandTable
 from sensorsim.render.illumination import Illumination
@@ -44,16 +45,6 @@ class SurfaceLight:
             self.known[new] = True
         return self.sent
 
-    def of_solids(self, solids: Solids, illumination: Illumination) -> Single:
-        """What the triangles of solids send (t, 2), all of them matt."""
-        sent = np.zeros((len(solids.triangles), 2), np.float32)
-        if self.band_table is None:
-            sent[:, 0] = reflected(illumination, solids.reflectance, solids.normal, solids.quarters)
-        else:
-            black = self.band_table.radiance_at(solids.temperature)
-            sent[:, 0] = matt(illumination, black, solids.emissivity, solids.normal)
-        return sent
-
     def _sent(self, row: NDArray[np.int64], time_of_day: float, illumination: Illumination) -> FloatArray:
         rows = self.rows
         normal, sent = rows.normal[row], np.zeros((row.size, 2))
@@ -79,6 +70,18 @@ class SurfaceLight:
         if self.world.offsets is not None:
             found = found + self.world.offsets.at(time_of_day, self.known.size)[row]
         return found
+
+
+def of_solids(
+    solids: Solids, around: Illumination, band_table: BandTable | None, plan: EffectPlan = EVERYTHING
+) -> FloatArray:
+    """Radiance that the triangles of solids send (t,), all of them matt."""
+    if band_table is None:
+        return reflected(around, solids.reflectance, solids.normal, solids.quarters)
+    black = band_table.radiance_at(solids.temperature)
+    if not plan.has("reflected_sky"):
+        return np.asarray(solids.emissivity * black)
+    return matt(around, black, solids.emissivity, solids.normal)
 
 
 def matt(around: Illumination, black: FloatArray, emissivity: FloatArray, normal: FloatArray) -> FloatArray:

@@ -19,6 +19,7 @@ from sensorsim.effects import (
     decide,
     film_bound,
     march_cost,
+    reflectance_bound,
     surface_bounds,
     term_cost,
 )
@@ -31,7 +32,7 @@ from sensorsim.sensor import Sensor, netd, sensor_parts
 from sensorsim.tables import BakeSettings, resolve_classes
 from sensorsim.tables.assign import SNOW_CODE, Assignment, assign_wall_types
 from sensorsim.tables.faces import ground_face, scene_faces
-from sensorsim.tables.scope import Scope, scene_scope, whole_scope
+from sensorsim.tables.scope import Scope, plain_walls, polynomial_miss, scene_scope, whole_scope
 from sensorsim.thermal import Season, season_of
 
 GROUND_CODE = 93  # loam: the ground plane that walls see
@@ -89,11 +90,11 @@ def survey_scene(
         season = replace(season, snow=False)
     assignment = assign_wall_types(scene, catalogue, season)
     ground = ground_plane(catalogue, season)
-    situation = _held(_situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor))
-    limits = situation.limits
+    situation = _held(
+        _situation(environment, scene, assignment, ground, settings), choice, tolerance_of(sensor, choice)
+    )
     effects = applicable((effect for effect in EFFECTS if effect.stage == SURFACE), sky=settings.sky, mode=mode)
-    bounds = _worth(situation, limits, choice, sensor)
-    bounds.update(_spared(environment, assignment, scene, settings))
+    bounds = _worth(situation, choice, sensor, _spared(situation, assignment, scene, settings))
     return Survey(
         scene=scene,
         environment=environment,
@@ -102,8 +103,8 @@ def survey_scene(
         ground=ground,
         settings=settings,
         choice=choice,
-        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor), unit="K")),
-        limits=limits,
+        ledger=Ledger(rows=decide(effects, bounds, choice, tolerance=tolerance_of(sensor, choice), unit="K")),
+        limits=situation.limits,
     )
 
 
@@ -119,8 +120,13 @@ def ground_plane(catalogue: Catalogue, season: Season) -> WallType:
     return catalogue.wall_type(SNOW_CODE if season.snow else GROUND_CODE, "none")
 
 
-def tolerance_of(sensor: Sensor | None) -> float:
-    """What effects that are left out may change together [K]: a share of the sensor's NETD, or of a usual one."""
+def tolerance_of(sensor: Sensor | None, choice: EffectChoice) -> float:
+    """What effects that bounds leave out may change together [K].
+
+    What the user says, else a share of the sensor's NETD, or of a usual one.
+    """
+    if choice.tolerance is not None:
+        return choice.tolerance
     stated = sensor is not None and sensor.mode == "emissive" and sensor.detector is not None
     return NOISE_SHARE * (netd(sensor) if stated and sensor is not None else DEFAULT_NOISE)
 
@@ -159,46 +165,76 @@ def _scope(
     return scene_scope(environment, assignment, scene.surfaces.normal, settings, plan)
 
 
-def _worth(situation: Situation, limits: Limits, choice: EffectChoice, sensor: Sensor | None) -> dict[str, Bound]:
+def _worth(
+    situation: Situation, choice: EffectChoice, sensor: Sensor | None, spared: dict[str, Bound]
+) -> dict[str, Bound]:
     """Bounds of the terms of the heat balance: in apparent temperature for an emissive sensor, else as they are."""
-    bounds = _priced(situation)
+    bounds, limits = _priced(situation), situation.limits
     apart = limits.greatest - limits.coldest
-    bounds["exchange"] = Bound(value=apart, reason="computed where asked for, by name or by the bake's settings")
+    bounds["exchange"] = Bound(value=apart, reason="computed where asked for alone: it takes longer than all the rest")
     if sensor is not None and sensor.mode == "reflective":
         if not choice.wants_temperature:
-            unseen = {name: replace(bound, value=0.0, reason=UNSEEN) for name, bound in bounds.items()}
-            return {**unseen, "snow": bounds["snow"], "temperature": Bound(value=0.0, reason=UNSEEN)}
-        return {**bounds, "temperature": Bound(value=apart, reason="asked for by name or by a plane of the frame")}
+            unseen = {name: Bound(value=0.0, reason=UNSEEN) for name in (*bounds, *spared)}
+            baked = replace(spared["temperature"], value=0.0, reason=UNSEEN)  # their time is in its
+            return {**unseen, "snow": bounds["snow"], "temperature": baked}
+        return bounds | spared
     factor = 1.0
     if sensor is not None:
         table = build_band_table(sensor.band)
         factor = apparent_factor(table, coldest=limits.coldest, warmest=limits.greatest)
-    return {name: replace(bound, value=factor * bound.value) for name, bound in bounds.items()}
+    return {name: replace(bound, value=factor * bound.value) for name, bound in (bounds | spared).items()}
 
 
 def _priced(situation: Situation) -> dict[str, Bound]:
-    """Bounds with the time that each term takes: a term of light or long waves at every orientation and sample."""
-    orientations = sum(face.normal.shape[0] for face in situation.faces)
-    saves = term_cost(orientations, situation.environment.time.size)
-    return {name: replace(bound, saves=saves) for name, bound in surface_bounds(situation).items()}
+    """Bounds with the time that each term takes; one that the history has none of takes none."""
+    counts, samples = [face.normal.shape[0] for face in situation.faces], situation.environment.time.size
+    shared, all_walls = max(counts, default=0), sum(counts)
+    return {
+        name: replace(bound, saves=term_cost(name, shared, all_walls, samples) if bound.value > 0.0 else 0.0)
+        for name, bound in surface_bounds(situation).items()
+    }
 
 
-def _spared(environment: Environment, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
-    """What need not be solved because no surface shows it: exact, and most of the time that a bake takes."""
-    whole = whole_scope(assignment.wall_types, settings).columns
+def _spared(situation: Situation, assignment: Assignment, scene: Scene, settings: BakeSettings) -> dict[str, Bound]:
+    """What need not be solved because no surface shows it, or no band: most of the time that a bake takes."""
+    environment, whole = situation.environment, whole_scope(assignment.wall_types, settings).columns
     turned = EffectPlan(off=("spare_orientations",))
     seen = _scope(environment, assignment, scene, settings, turned).columns
-    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances")).columns
+    shown = _scope(environment, assignment, scene, settings, turned.without("spare_reflectances"))
     samples, all_needed = environment.time.size, "a spline, the closest three and lobes are made from all of them"
+    value, reason = _reflectance_worth(situation, assignment, settings, shown)
+    apart = situation.limits.greatest - situation.limits.coldest
     return {
+        "temperature": Bound(
+            value=apart, reason="asked for by name or by a plane of the frame", saves=march_cost(seen, samples)
+        ),
         "spare_orientations": Bound(
             value=0.0,
             reason=f"surfaces show {seen} of {whole} histories" if seen < whole else all_needed,
             saves=march_cost(whole - seen, samples),
         ),
         "spare_reflectances": Bound(
-            value=0.0,
-            reason="no light to reflect" if shown < seen else "sunlight tells them apart",
-            saves=march_cost(seen - shown, samples),
+            value=value if shown.columns < seen else 0.0,
+            reason=reason if shown.columns < seen else "surfaces have as many as are solved",
+            saves=march_cost(seen - shown.columns, samples),
         ),
     }
+
+
+def _reflectance_worth(
+    situation: Situation, assignment: Assignment, settings: BakeSettings, shown: Scope
+) -> tuple[float, str]:
+    """What a bake of the scene's own reflectances differs by from one of all [K], at most, and why."""
+    if not shown.lit:
+        return 0.0, "no light to reflect"
+    limits = situation.limits
+    if settings.lobes > 0.0 or settings.interpolation == "spline":
+        return limits.greatest - limits.coldest, "lobes and splines are fitted to all of them together"
+    misses = {
+        wall: polynomial_miss(own, settings)
+        for wall, own in zip(assignment.wall_types, shown.reflectances, strict=True)
+        if own != settings.reflectances
+    }
+    plain = dict.fromkeys(part for wall in assignment.wall_types for part in plain_walls(wall))
+    value = reflectance_bound(situation, [misses.get(wall, 0.0) for wall in plain])
+    return value, f"{len(misses)} of {len(assignment.wall_types)} wall types have fewer than are solved"

@@ -27,9 +27,9 @@ def surface_defines(plan: EffectPlan, *, emissive: bool) -> Defines:
     }
 
 
-def background_defines(plan: EffectPlan, *, emissive: bool) -> Defines:
-    """Defines of the program that draws sky and far ground by this plan."""
-    return {"EMISSIVE": int(emissive), "PATH": int(plan.has("atmosphere"))}
+def background_defines(plan: EffectPlan) -> Defines:
+    """Defines of the program that draws sky and far ground by this plan, in any band."""
+    return {"PATH": int(plan.has("atmosphere"))}
 
 
 def all_plans() -> tuple[EffectPlan, ...]:
@@ -59,7 +59,7 @@ class Programs:
 
     def background(self, plan: EffectPlan) -> Pass:
         """The program that draws sky and far ground by this plan."""
-        defines = background_defines(plan, emissive=self.emissive)
+        defines = background_defines(plan)
         key = "background", tuple(defines.items())
         if key not in self.built:
             self.built[key] = background_pass(self.ctx, self.generated, defines)

@@ -98,7 +98,7 @@ CASES = (
 WITHOUT_PICTURE: Mapping[str, str] = {
     "temperature": "a low-light picture is the same with and without it",
     "spare_orientations": "histories that no surface of the scene shows: pictures are the same",
-    "spare_reflectances": "histories that no surface of the scene shows: pictures are the same",
+    "spare_reflectances": "histories that no surface shows: pictures are the same to what a polynomial misses",
 }
 
 

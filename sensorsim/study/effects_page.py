@@ -31,10 +31,10 @@ def write_effects_page(path: Path, found: Sequence[EffectWorth], images: int) ->
     page.text(
         f"The {images} images of the report's figures 19 and 21 to 27, drawn again with one effect left out at a time. "
         "Kelvin are of apparent temperature in the images of the FLIR; a change in an image of the LLLTV is told as a "
-        "share of a white surface that faces the sun. Times are processor times: of the bakes of all worlds that the "
-        "figures need, and of one frame of 640 by 480 pixels drawn in software; their differences are as noisy as "
-        "the machine is busy. The bound is the greatest that a ledger tells of leaving the effect out; a row is "
-        "coloured where an image changed by more than its own."
+        "share of a white surface that faces the sun. Times are processor times, the best of "
+        "several: of the bakes of all worlds that the figures need, and of one frame of 640 by 480 pixels drawn in "
+        "software; their differences are as noisy as the machine is busy. The bound is the greatest that a ledger "
+        "tells of leaving the effect out; a row is coloured where an image changed by more than its own."
     )
     page.table(HEAD, [row(worth) for worth in found], alarm=[not worth.holds for worth in found])
     page.figure(_plot(found), "Greatest and root-mean-square change of apparent temperature; dashed: the tolerance.")

@@ -13,7 +13,7 @@ from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, reflectance_powers
-from sensorsim.tables.fit import FitFrame, FittedWall, fit_frame, fit_lobes, fit_plain
+from sensorsim.tables.fit import FitFrame, FittedWall, Powers, fit_frame, fit_lobes, fit_plain
 from sensorsim.tables.history import make_ready, wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
 from sensorsim.tables.mixture import mix_rises, mix_temperatures, mixed_reflectances
@@ -99,9 +99,15 @@ class _Bake:
     frame: FitFrame | None  # with lobes
 
     @property
-    def reflectances(self) -> FloatArray:
-        """Reflectances (r,) that are solved."""
-        return np.asarray(self.scope.reflectances, dtype=np.float64)
+    def degree(self) -> int:
+        """Degree of the polynomials that are kept."""
+        return min(self.settings.degree, self.scope.most - 1)
+
+    def powers(self, wall: WallType) -> Powers:
+        """Reflectances that are solved of a wall type, and the powers that are fitted to them."""
+        reflectances = self.scope.reflectances_of(self.wall_types, wall)
+        degree = min(self.degree, reflectances.size - 1)
+        return Powers(reflectances, degree, self.settings.knot if degree == self.degree else 0.0)
 
     def cost(self, wall: WallType) -> tuple[bool, float]:
         """By which plain wall types are sorted so that no thread is left with a dear one at the end."""
@@ -115,7 +121,12 @@ class _Bake:
         )
         needed, outside = self._outside(wall)
         temperature = wall_history(
-            environment, outside, ready, 1.0 - self.reflectances, self.record, stride=settings.lead_in_stride
+            environment,
+            outside,
+            ready,
+            1.0 - self.powers(wall).reflectances,
+            self.record,
+            stride=settings.lead_in_stride,
         )
         if not np.all(needed):
             solved = temperature
@@ -145,18 +156,23 @@ class _Bake:
         return needed, outside
 
     def fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
-        """Fit any wall type, from its parts where it is mixed."""
-        refl = self.reflectances
-        degree = min(self.settings.degree, refl.size - 1)
-        own = mixed_reflectances(wall, refl) if wall.parts else refl[None]
+        """Fit any wall type, from its parts where it is mixed; with as many powers as any of them has."""
+        fitted = self._fit(wall, solved)
+        spare = self.degree + 1 - fitted.coefficients.shape[-1]
+        return replace(fitted, coefficients=np.pad(fitted.coefficients, ((0, 0), (0, 0), (0, spare))))
+
+    def _fit(self, wall: WallType, solved: Mapping[WallType, _Solved]) -> FittedWall:
+        """Fit any wall type by a polynomial through its own reflectances."""
+        powers = self.powers(wall)
+        own = mixed_reflectances(wall, powers.reflectances) if wall.parts else powers.reflectances[None]
         plain = [solved[part] for part in plain_walls(wall)]
         parts = [
-            _at(history.temperature, refl, row, self.settings.knot) if wall.parts else history.temperature
+            _at(history.temperature, powers, row) if wall.parts else history.temperature
             for history, row in zip(plain, own, strict=True)
         ]
         temperature = mix_temperatures(wall, parts) if wall.parts else parts[0]
         if self.frame is None:
-            return self._fit_needed(wall, temperature, degree)
+            return self._fit_needed(wall, temperature, powers)
         rises = [
             history.weight[..., None] * (1.0 - row)
             for history, row in zip(plain, own, strict=True)
@@ -164,15 +180,15 @@ class _Bake:
         ]
         films = [history.films for history in plain if history.films is not None]
         if not wall.parts:
-            return fit_lobes(temperature, rises[0], films[0], self.frame)
+            return fit_lobes(temperature, rises[0], films[0], self.frame, powers)
         rise = mix_rises(wall, [part.mean(axis=1, keepdims=True) for part in parts], rises)
-        return fit_lobes(temperature, rise, mix_films(wall, films), self.frame)
+        return fit_lobes(temperature, rise, mix_films(wall, films), self.frame, powers)
 
-    def _fit_needed(self, wall: WallType, temperature: FloatArray, degree: int) -> FittedWall:
+    def _fit_needed(self, wall: WallType, temperature: FloatArray, powers: Powers) -> FittedWall:
         """Fit temperatures (t, o, r) [K] without lobes, at the orientations that the wall type needs."""
         needed = self.scope.needed[self.wall_types.index(wall)]
-        fitted = fit_plain(temperature[:, needed], self.reflectances, degree, knot=self.settings.knot)
-        coefficients = np.full((*temperature.shape[:2], degree + 1), np.nan)
+        fitted = fit_plain(temperature[:, needed], powers)
+        coefficients = np.full((*temperature.shape[:2], powers.degree + 1), np.nan)
         coefficients[:, needed] = fitted.coefficients
         return replace(fitted, coefficients=coefficients)
 
@@ -202,7 +218,7 @@ def _prepare(
         towards=wind_towards(environment, record),
         frame=None
         if sources is None
-        else fit_frame(environment, record, settings, scope.reflectances, facing_lobes(sources, scope.solved)),
+        else fit_frame(environment, record, settings.orientations, facing_lobes(sources, scope.solved)),
     )
 
 
@@ -221,10 +237,11 @@ def _bake_walls(bake: _Bake, progress: Progress | None) -> tuple[list[FittedWall
     return rows, tuple(longest([solved[part].lead_in for part in plain_walls(wall)]) for wall in wall_types)
 
 
-def _at(temperature: FloatArray, reflectances: FloatArray, asked: FloatArray, knot: float) -> FloatArray:
-    """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through those (t, o, r) at `reflectances`."""
-    powers = reflectance_powers(asked, reflectances.size, knot)
-    return np.asarray(fit_polynomials(temperature, reflectances, reflectances.size - 1, knot=knot) @ powers.T)
+def _at(temperature: FloatArray, powers: Powers, asked: FloatArray) -> FloatArray:
+    """Temperature (t, o, a) [K] at reflectances (a,) on the polynomial through all those (t, o, r) that are solved."""
+    solved, knot = powers.reflectances, powers.knot
+    through = reflectance_powers(asked, solved.size, knot)
+    return np.asarray(fit_polynomials(temperature, solved, solved.size - 1, knot=knot) @ through.T)
 
 
 def _lobes(sources: LobeSources | None, rows: Sequence[FittedWall], kept: np.dtype[np.floating]) -> Lobes | None:

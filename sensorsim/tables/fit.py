@@ -8,8 +8,8 @@ through which the sun's edge has moved from orientation to orientation. Where th
 melts, there is next to no gain.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from sensorsim.environment import Environment
 from sensorsim.tables.coefficients import fit_polynomials
 from sensorsim.tables.lobes import gain_terms, lobe_gain
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
-from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.spline import roughness
 from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms, wind_share, wind_towards
 
@@ -44,25 +43,25 @@ class FitFrame:
     """What the fits of all wall types share, beside lobes."""
 
     orientations: str  # layout that was solved
-    reflectances: FloatArray  # (r,) that were solved
-    degree: int
-    knot: float
     facing: FloatArray  # (t, k + 1, o) cosine to the lobes, 0 behind them
     air: FloatArray  # (t,) [K]
     terms: Terms  # of the films, (t, o) and (o,)
     nearby: FloatArray  # (t, t) weights of the slices around, which sum to one
 
 
-def fit_frame(
-    environment: Environment, record: IntArray, settings: BakeSettings, reflectances: Sequence[float],
-    facing: FloatArray,
-) -> FitFrame:  # fmt: skip
-    """Frame of fits at the samples `record` (t,), of solved reflectances, with cosines (t, k + 1, o) to the lobes."""
-    normal, towards = orientation_set(settings.orientations).normal, wind_towards(environment, record)
+class Powers(NamedTuple):
+    """What is fitted to the histories of a wall type at each orientation."""
+
+    reflectances: FloatArray  # (r,) that were solved
+    degree: int
+    knot: float  # at which the last power begins
+
+
+def fit_frame(environment: Environment, record: IntArray, orientations: str, facing: FloatArray) -> FitFrame:
+    """Frame of fits at the samples `record` (t,), with cosines (t, k + 1, o) of a layout's normals to the lobes."""
+    normal, towards = orientation_set(orientations).normal, wind_towards(environment, record)
     return FitFrame(
-        orientations=settings.orientations, reflectances=np.asarray(reflectances, dtype=np.float64),
-        degree=min(settings.degree, len(reflectances) - 1), knot=settings.knot, facing=facing,
-        air=environment.air_temperature[record],
+        orientations=orientations, facing=facing, air=environment.air_temperature[record],
         terms=(wind_share(normal, towards), *tilt_terms(normal)), nearby=nearby_slices(environment.time[record]),
     )  # fmt: skip
 
@@ -75,32 +74,32 @@ def nearby_slices(clock: FloatArray) -> FloatArray:
     return np.asarray(weight / weight.sum(axis=1, keepdims=True))
 
 
-def fit_plain(temperature: FloatArray, reflectances: FloatArray, degree: int, *, knot: float = 0.0) -> FittedWall:
-    """Temperatures (t, o, r) [K] at reflectances (r,) as polynomials, above the coldest of each time."""
+def fit_plain(temperature: FloatArray, powers: Powers) -> FittedWall:
+    """Temperatures (t, o, r) [K] as polynomials, above the coldest of each time."""
     level = temperature.min(axis=(1, 2))
     above = temperature - level[:, None, None]
     return FittedWall(
-        coefficients=fit_polynomials(above, reflectances, degree, knot=knot), level=level,
+        coefficients=fit_polynomials(above, powers.reflectances, powers.degree, knot=powers.knot), level=level,
         loss=np.tile(UNBENT, (level.size, 1)), weight=None, gain=None,
     )  # fmt: skip
 
 
-def fit_lobes(temperature: FloatArray, rise: FloatArray, films: Films, frame: FitFrame) -> FittedWall:
+def fit_lobes(temperature: FloatArray, rise: FloatArray, films: Films, frame: FitFrame, powers: Powers) -> FittedWall:
     """Lobes whose rises are (t, k + 1, r) [K], and what is left of temperatures (t, o, r) [K] without them.
 
     Both straightened: rises are what they are at the mean temperature of all orientations and reflectances.
     """
-    reflectances, alike = frame.reflectances, (*temperature.shape[:2], 1)
+    reflectances, alike = powers.reflectances, (*temperature.shape[:2], 1)
     mean = np.broadcast_to(temperature.mean(axis=(1, 2), keepdims=True), alike)
     straight, loss = fit_loss(temperature, frame.air, reflectances, films, frame.terms)
     stretch = straighten(mean, frame.air, loss, frame.terms)[1].mean(axis=1, keepdims=True)
     weight = np.zeros((*rise.shape[:2], 2))
-    powers = min(2, reflectances.size)
-    weight[..., :powers] = fit_polynomials(stretch * rise, reflectances, powers - 1)
+    linear = min(2, reflectances.size)
+    weight[..., :linear] = fit_polynomials(stretch * rise, reflectances, linear - 1)
     sun = frame.facing.swapaxes(1, 2) @ weight @ np.vander(reflectances, 2, increasing=True).T
     gain = fit_gain(straight, sun, frame.orientations, reflectances, frame.nearby)
     rest = straight - sun * lobe_gain(gain, orientation_set(frame.orientations).normal)[..., None]
-    coefficients = fit_polynomials(rest, reflectances, frame.degree, knot=frame.knot)
+    coefficients = fit_polynomials(rest, reflectances, powers.degree, knot=powers.knot)
     return FittedWall(coefficients=coefficients, level=frame.air, loss=loss, weight=weight, gain=gain)
 
 

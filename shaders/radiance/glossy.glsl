@@ -25,7 +25,8 @@ Radiance mirrored_sky(int kind, Direction outward) {
 }
 
 // [CookTorrance1982] with slopes of [BeckmannSpizzichino1963]. The sun's disc widens them so that a flat mirror shows
-// the middle of its image as bright as the disc: in the plane of the light, and by 1 / cosine more across it.
+// the middle of its image as bright as the disc: in the plane of the light, and by 1 / cosine more across it. At angles
+// as flat as the disc itself that is too wide, and so no glint is brighter than the disc.
 Radiance glint(int kind, Ratio facet, Direction normal, Direction to_eye, Ratio sun, Ratio eye) {
     Direction half_way = normalize(illumination.sun_direction + to_eye);
     Ratio upright = dot(half_way, normal), incidence = dot(half_way, to_eye);
@@ -40,7 +41,7 @@ Radiance glint(int kind, Ratio facet, Direction normal, Direction to_eye, Ratio 
                   / (PI * sqrt(widened.x * widened.y) * upright * upright * upright * upright);
     Ratio mirrored = mix(facet, 1.0, rise_of(2 * GLOSS_KINDS + kind, incidence));
     Ratio seen = rise_of(GLOSS_KINDS + kind, sun) * rise_of(GLOSS_KINDS + kind, eye);
-    return illumination.beam * mirrored * density * seen / (4.0 * eye);
+    return illumination.beam * mirrored * min(density * seen / (4.0 * eye), 0.25 / (PI * DISC_VARIANCE));
 }
 
 // gloss: kind, reflectance of a facet along its normal; view: from the sensor to the surface

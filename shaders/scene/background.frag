@@ -1,7 +1,7 @@
 #version 330 core
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
-// plane of [Report1978] section 3.1.3 through its air path.
-// EMISSIVE 1: thermal bands, 0: reflective bands, whose sky glows around the sun [ISO15469].
+// plane of [Report1978] section 3.1.3 through its air path. In reflective bands the sky glows around the sun [ISO15469];
+// in thermal ones the tables of that are zero.
 // PATH 1: with the air in between, 0: without.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
@@ -20,11 +20,7 @@ layout(location = 0) out vec4 quantities;
 layout(location = 1) out int id;
 
 Radiance sky(Direction view) {
-#if EMISSIVE
-    return sky_radiance(view.z);
-#else
     return sky_radiance(view.z) + sky_gradation(view.z) * sky_indicatrix(dot(view, illumination.sun_direction));
-#endif
 }
 
 Radiance background_radiance(Direction view) {
