@@ -90,12 +90,16 @@ class BakeSettings:
                 not (isinstance(self.degree, int) and self.degree in degrees),
                 "use a whole number from 0 up to the number of reflectances less one",
             ),
-            ("knot", not 0.0 <= self.knot < max(self.reflectances, default=1.0), "use 0 up to the largest reflectance"),
+            ("knot", not 0.0 <= self.knot < self._most_knot(), "use 0 up to the largest reflectance"),
             ("slice_interval", not sliced, "use a multiple of the step that divides the day"),
             ("exchange", not isinstance(self.exchange, bool), "use True or False"),
             ("lead_in_days", days is not None and not 0 <= days <= 365, "use 0 to 365 days, or None"),
             ("lead_in_stride", type(stride) is not int or not 1 <= stride <= 24, "use a whole number from 1 to 24"),
         )
+
+    def _most_knot(self) -> float:
+        """Where the last power would begin beyond what is solved, if it has a knot at all."""
+        return max(self.reflectances, default=1.0) if self.degree > 2 else 1.0
 
     def _lobes_fit(self) -> bool:
         return self.lobes == 0 or (60.0 <= self.lobes <= 21600.0 and _is_whole(SECONDS_PER_DAY, self.lobes))
