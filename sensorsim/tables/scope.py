@@ -46,6 +46,8 @@ class Scope:
 
     def reflectances_of(self, wall_types: Sequence[WallType], part: WallType) -> FloatArray:
         """Reflectances (r,) of a wall type, plain or mixed, that is solved for itself and for mixtures that hold it."""
+        if len(set(self.reflectances)) == 1:  # no wall types to compare
+            return np.asarray(self.reflectances[0])
         own = [
             self.reflectances[row] for row, wall in enumerate(wall_types) if part == wall or part in plain_walls(wall)
         ]
