@@ -8,7 +8,6 @@ samples. Columns that overshoot take that step by backward Euler, which cannot (
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
@@ -52,6 +51,7 @@ from sensorsim.thermal.lanes import (
     inner,
     lanes_for,
     note,
+    outer,
     room_for,
     scalar,
     spread,
@@ -84,17 +84,8 @@ def advance(
     return int(_advance(lanes, w, c, place, columns, cells, damped, outside, inside, first, last, step, trace))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@outer
 def _advance(
-    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], columns: Columns, cells: Cells,
-    damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
-) -> int:  # fmt: skip
-    """Steps of all blocks in turn, by code that counts no references to arrays, which would take longer than a step."""
-    return _all(lanes, w, c, place, columns, cells, damped, outside, inside, first, last, step, trace)
-
-
-@inner
-def _all(
     lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], columns: Columns, cells: Cells,
     damped: Cells, outside: Outside, inside: Inside, first: int, last: int, step: float, trace: Trace,
 ) -> int:  # fmt: skip

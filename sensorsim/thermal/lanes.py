@@ -44,6 +44,14 @@ class Group(NamedTuple):
     absorptance: Index
 
 
+def outer(function: F) -> F:
+    """Compile what Python calls, and keep it on disk. It counts no references to arrays, which its caller holds."""
+    compiler = cast("Any", njit)(
+        cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False
+    )  # fmt: skip
+    return cast("F", compiler(function))
+
+
 def inner(function: F) -> F:
     """Compile what only compiled code calls: no wrappers for others, and no counting of references to what it is lent.
 

@@ -10,7 +10,6 @@ is left to be solved, and its balance is linear.
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
@@ -19,7 +18,7 @@ from sensorsim.thermal.boundary import Cells, Inside, Outside, per_exterior_area
 from sensorsim.thermal.conduction import factor
 from sensorsim.thermal.damping import CARRY, GAMMA
 from sensorsim.thermal.grid import FloatArray, WallGrid
-from sensorsim.thermal.lanes import LANES, ROW, Index, inner, room_for, wide
+from sensorsim.thermal.lanes import LANES, ROW, Index, inner, outer, room_for, wide
 
 INNER_DIFFERENCE = 3.0  # [K] between the interior face and its air, at which its free film is taken
 LEAST_SLOPE = 1e-3  # [W m-2 K-1] in perfectly still air between black bodies of 0 K
@@ -72,21 +71,15 @@ def linear_response(
     return rise
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@outer
 def _march(
     lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], cells: Cells, source: FloatArray,
     slope: FloatArray, record: NDArray[np.int64], rise: FloatArray,
 ) -> None:  # fmt: skip
-    """All steps to the last sample of `record`, which ascends, from no rise at all, block by block of sources."""
-    _all(lanes, w, c, place, cells, source, slope, record, rise)
+    """All steps to the last sample of `record`, which ascends, from no rise at all, block by block of sources.
 
-
-@inner
-def _all(
-    lanes: Index, w: FloatArray, c: FloatArray, place: NDArray[Index], cells: Cells, source: FloatArray,
-    slope: FloatArray, record: NDArray[np.int64], rise: FloatArray,
-) -> None:  # fmt: skip
-    """Blocks are passed over until the first of their sources begins."""
+    Blocks are passed over until the first of their sources begins.
+    """
     outward, inward, through, late_through = cells.outward, cells.inward, cells.exchange[0], cells.exchange[1]
     for begin in range(0, source.shape[1], LANES):
         count, row = min(lanes, Index(source.shape[1] - begin)), 0

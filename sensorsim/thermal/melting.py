@@ -14,7 +14,6 @@ as it held stays to freeze again.
 from collections.abc import Sequence
 
 import numpy as np
-from numba import njit
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT as SIGMA
 from sensorsim.thermal.balance import load
@@ -30,6 +29,7 @@ from sensorsim.thermal.lanes import (
     groups,
     inner,
     lanes_for,
+    outer,
     room_for,
     spread,
     take,
@@ -84,17 +84,8 @@ def advance_melting(
     return int(_advance(lanes, w, block_of(wall), columns, taken, wall, outside, inside, first, last, step))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@outer
 def _advance(
-    lanes: Index, w: FloatArray, block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
-    outside: Outside, inside: Inside, first: int, last: int, step: float,
-) -> int:  # fmt: skip
-    """Steps of all blocks in turn, by code that counts no references to arrays."""
-    return _all(lanes, w, block, columns, taken, wall, outside, inside, first, last, step)
-
-
-@inner
-def _all(
     lanes: Index, w: FloatArray, block: Block, columns: Columns, taken: FloatArray, wall: Thaw,
     outside: Outside, inside: Inside, first: int, last: int, step: float,
 ) -> int:  # fmt: skip
