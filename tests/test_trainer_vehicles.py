@@ -172,7 +172,8 @@ def test_vehicles_found_together_are_as_each_is_alone() -> None:
         expected = np.concatenate([getattr(one, name) for one in alone])
         np.testing.assert_allclose(getattr(together, name), expected, rtol=1e-12, atol=1e-12)
     wall, count = skin_wall(town()), len(together.normal)
-    skin = surface_temperature(town().tables, together.normal, np.full(count, wall), np.full(count, 0.25), TEN)
+    upright = np.round(together.normal, 9) + 0.0  # the free film of [Walton1983] leaps by 0.02 % from up to down
+    skin = surface_temperature(town().tables, upright, np.full(count, wall), np.full(count, 0.25), TEN)
     np.testing.assert_allclose(together.temperature, skin, atol=1e-5)
     np.testing.assert_allclose(together.quarters, quadrant_view_factors(together.normal), atol=1e-7)
 

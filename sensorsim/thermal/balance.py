@@ -107,21 +107,26 @@ def evaporation(temperature: float, exchange: float, vapour: float) -> tuple[flo
     return exchange * (pressure - vapour), exchange * max(rise, 0.0)
 
 
+@scalar
+def acting(w: FloatArray, j: int, at: float, guess: Guess) -> tuple[float, float, float, float, float]:
+    """Absorbed load, forced film cubed and vapour exchange of a lane at a fraction `at`, where faces are looked for."""
+    rest = 1.0 - at
+    forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
+    absorbed, cubed = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j], forced * forced * forced
+    steam = rest * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j]
+    ext = ahead(w[START + j], w[EXTERIOR + j], w[RISE + j], w[RISE_BEFORE + j], guess)
+    inn = ahead(w[INTERIOR_START + j], w[INTERIOR + j], w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess)
+    return absorbed, cubed, steam, ext, inn
+
+
 @inner
 def load(lanes: Index, w: FloatArray, at: float, guess: Guess) -> None:
-    """What acts on the exterior face at a fraction `at` of the step, where both are looked for."""
+    """What acts on the exterior faces at a fraction `at` of the step, where both faces are looked for."""
     wide()
-    rest = 1.0 - at
     for j in range(lanes):
-        ext, inn = w[EXTERIOR + j], w[INTERIOR + j]
-        forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
-        w[FILM_CUBED + j], w[MOVED + j] = forced * forced * forced, UNBOUNDED
-        w[LOAD + j] = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j]
-        w[VAPOUR_EXCHANGE + j] = rest * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j]
-        w[EXTERIOR + j] = ahead(w[START + j], ext, w[RISE + j], w[RISE_BEFORE + j], guess)
-        w[INTERIOR + j] = ahead(
-            w[INTERIOR_START + j], inn, w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess
-        )  # fmt: skip
+        absorbed, cubed, steam, ext, inn = acting(w, j, at, guess)
+        w[LOAD + j], w[FILM_CUBED + j], w[VAPOUR_EXCHANGE + j], w[MOVED + j] = absorbed, cubed, steam, UNBOUNDED
+        w[EXTERIOR + j], w[INTERIOR + j] = ext, inn
 
 
 @scalar
@@ -130,13 +135,8 @@ def leap_lane(
     guess: Guess,
 ) -> int:  # fmt: skip
     """As `load`, and two Newton steps of both faces of one lane; returns whether it has to go on."""
-    rest = 1.0 - at
-    forced = rest * w[FORCED + j] + at * w[LATER + FORCED + j]
-    absorbed, cubed = rest * w[ABSORBED + j] + at * w[LATER + ABSORBED + j], forced * forced * forced
-    ext = ahead(w[START + j], w[EXTERIOR + j], w[RISE + j], w[RISE_BEFORE + j], guess)
-    inn = ahead(w[INTERIOR_START + j], w[INTERIOR + j], w[INTERIOR_RISE + j], w[INTERIOR_RISE_BEFORE + j], guess)
+    absorbed, cubed, steam, ext, inn = acting(w, j, at, guess)
     loads = (absorbed, cubed, w[FREE + j], w[FREE_COLDER + j], w[LEFT + j], w[RIGHT + j])
-    steam = rest * w[EXCHANGE + j] + at * w[LATER + EXCHANGE + j] if wet else 0.0
     latent = evaporation(ext, steam, vapour) if wet else (0.0, 0.0)
     face, room_face = (ext, w[PER_FILM + j]), (inn, w[INTERIOR_PER_FILM + j])
     ext, inn, root, room_root, moved = newton(face, room_face, loads, latent, exchange, grey, air, room)

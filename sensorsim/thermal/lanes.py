@@ -100,8 +100,8 @@ def room_for(count: int) -> FloatArray:
 
 def lanes_for(orientations: int) -> Index:
     """Lanes of a block: whole vectors, and about as many in each of the blocks that it takes."""
-    blocks = -(-orientations // LANES)
-    return Index(VECTOR * -(-orientations // (VECTOR * blocks)))
+    blocks = max(-(-orientations // LANES), 1)
+    return Index(VECTOR * max(-(-orientations // (VECTOR * blocks)), 1))
 
 
 @scalar
