@@ -14,7 +14,7 @@ from sensorsim.materials import load_catalogue
 from sensorsim.study.accuracy import still_moment
 from sensorsim.tables import BakeSettings, bake_tables
 
-HARDEST = (5, 9, 13, 16, 32, 43, 50, 60)  # siding, stucco, a mixed block, glass, shingles and sheet metal
+HARDEST = (5, 9, 13, 16, 32, 43, 50, 60, 96)  # siding, stucco, a mixed block, glass, shingles, sheets and leafy trees
 REFLECTANCES = np.array([0.03, 0.3, 0.65, 0.92])
 DAYS: Mapping[str, date] = {"winter": date(1976, 2, 7), "summer": date(1976, 9, 3), "fall": date(1976, 10, 7)}
 

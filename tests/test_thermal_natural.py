@@ -151,8 +151,10 @@ def test_stomata_close_in_the_dark_the_cold_and_dry_air(catalogue: Catalogue, we
     assert cover is not None
 
     def resistance(celsius: float, humidity: float, sun: float) -> float:
-        environment, exposure = steady(weather["fall"], celsius=celsius, humidity=humidity, wind=2.0, sun=sun)
-        return float(canopy_resistance(environment, cover, exposure.irradiance)[0, 0])
+        environment, _ = steady(weather["fall"], celsius=celsius, humidity=humidity, wind=2.0, sun=sun)
+        dark = np.zeros_like(environment.beam_irradiance)
+        lit = replace(environment, beam_irradiance=dark, diffuse_irradiance=dark + sun)
+        return float(canopy_resistance(lit, cover)[0])
 
     best = resistance(25.0, 1.0, 1000.0)
     assert best == pytest.approx(cover.stomatal_resistance / cover.leaf_area_index, rel=0.1)

@@ -13,9 +13,7 @@ octahedron66, 4 reflectances, knot            0.06 / 0.34  0.05 / 0.26  0.12 / 0
 the default, plain cubic, bent by radiation   0.10 / 0.39  0.07 / 0.39  0.22 / 0.84   168
 
 The default has 0.02 / 0.13 in summer. The last line is what a quadratic bend of the temperature (see `straighten` for
-what took its place), a cubic without a knot and a gain of the lobes told from each slice alone gave. In fall deciduous
-trees are farthest off, on undersides of reflectances above 0.8, where leaves open as the sun first touches them; all
-others keep 0.30. Snow: 0.02 where it thaws all day, 0.3 / 0.6 where it freezes at night. Without wind 0.1 is not had
+what took its place), a cubic without a knot and a gain of the lobes told from each slice alone gave. Snow: 0.02 where it thaws all day, 0.3 / 0.6 where it freezes at night. Without wind 0.1 is not had
 with 66 orientations and 7 reflectances either (0.11 / 0.59 on half of the materials): what is left lies along the edge
 of the last hours' sun, which had shone on faces of other films.
 

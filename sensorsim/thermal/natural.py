@@ -8,7 +8,7 @@ Natural surfaces (`materials.Cover`) exchange heat with the air through the resi
 orientations, as a crown or a meadow is porous. Plants have d = 2/3 and z0 = 0.123 of their height. U is the wind with
 the gusts of the day's free convection [Beljaars1995], which stand in for the free film. Vapour takes the same way, and
 a further one: none for water, snow and wet surfaces; for soil a share, its `moisture`; through the stomata of a canopy
-as one big leaf [Jarvis1976, Stewart1988],
+as one big leaf, which opens by the light from above [Jarvis1976, Stewart1988],
 
     r_s = r_least / (LAI f_light f_deficit f_temperature).
 
@@ -87,23 +87,27 @@ def effective_wind(environment: Environment) -> FloatArray:
 
     The heat H that a landscape gives to the air is a share of the sunlight; without sun the least gust remains.
     """
-    height = np.maximum(environment.sun_direction[:, 2], 0.0)
-    sunlight = environment.beam_irradiance * height + environment.diffuse_irradiance
     state = air_at(environment.air_temperature, pressure_at(environment.site.altitude))
-    flux = HEATING_SHARE * sunlight / (state.density * SPECIFIC_HEAT)  # [K m s-1]
+    flux = HEATING_SHARE * sunlight_from_above(environment) / (state.density * SPECIFIC_HEAT)  # [K m s-1]
     gust = np.maximum(np.cbrt(GRAVITY / state.temperature * flux * MIXED_LAYER), LEAST_GUST)
     return np.asarray(np.hypot(environment.wind_speed, gust))
 
 
-def canopy_resistance(environment: Environment, cover: Cover, irradiance: FloatArray) -> FloatArray:
-    """Resistance (t, o) [s m-1] of the stomata of all leaves together, under irradiances (t, o) [W m-2]."""
-    slope, least, scale = LIGHT
-    light = np.minimum((slope * irradiance + least) / (scale * (slope * irradiance + 1.0)), 1.0)
+def sunlight_from_above(environment: Environment) -> FloatArray:
+    """Direct and diffuse light (t,) on level ground [W m-2]."""
+    height = np.maximum(environment.sun_direction[:, 2], 0.0)
+    return np.asarray(environment.beam_irradiance * height + environment.diffuse_irradiance)
+
+
+def canopy_resistance(environment: Environment, cover: Cover) -> FloatArray:
+    """Resistance (t,) [s m-1] of the stomata of all leaves together, which open by the light from above."""
+    sunlight, (slope, least, scale) = sunlight_from_above(environment), LIGHT
+    light = np.minimum((slope * sunlight + least) / (scale * (slope * sunlight + 1.0)), 1.0)
     air = environment.air_temperature
     deficit = np.maximum(saturation_vapour_pressure(air) - environment.vapour_pressure, 0.0)
     dryness = np.exp(-cover.deficit_sensitivity * deficit)
     warmth = np.clip(1.0 - TEMPERATURE_SENSITIVITY * (BEST_TEMPERATURE - air) ** 2, 0.0, 1.0)
-    opening = np.maximum(light * (dryness * warmth)[:, None], CLOSED)
+    opening = np.maximum(light * dryness * warmth, CLOSED)
     return np.asarray(cover.stomatal_resistance / (cover.leaf_area_index * opening))
 
 
@@ -144,7 +148,7 @@ def _moisten(
     film = _with_free(film, outside)
     if not np.any(film > 0.0):
         return outside
-    share = _evaporating_share(environment, cover, exposure, film, wet)
+    share = _evaporating_share(environment, cover, film, wet)
     if not np.any(share > 0.0):
         return outside
     gamma = psychrometric_constant(environment.air_temperature, pressure)[:, None]
@@ -156,9 +160,7 @@ def _with_free(film: FloatArray, outside: Outside) -> FloatArray:
     return np.cbrt(film**3 + FREE_DIFFERENCE * outside.free) if np.any(outside.free) else film
 
 
-def _evaporating_share(
-    environment: Environment, cover: Cover | None, exposure: Exposure, film: FloatArray, wet: FloatArray
-) -> FloatArray:
+def _evaporating_share(environment: Environment, cover: Cover | None, film: FloatArray, wet: FloatArray) -> FloatArray:
     """Vapour that leaves a surface over what would if it were water (t, o) [-], at the same temperature."""
     if cover is None or cover.kind == "road":
         return wet
@@ -170,7 +172,7 @@ def _evaporating_share(
         return wet
     state = air_at(environment.air_temperature, pressure_at(environment.site.altitude))
     air_resistance = (state.density * SPECIFIC_HEAT)[:, None] / film
-    dry = air_resistance / (air_resistance + canopy_resistance(environment, cover, exposure.irradiance))
+    dry = air_resistance / (air_resistance + canopy_resistance(environment, cover)[:, None])
     return np.asarray(wet + (1.0 - wet) * dry)
 
 
