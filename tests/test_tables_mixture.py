@@ -130,6 +130,20 @@ def test_the_bake_mixes_what_it_solves_for_the_components(catalogue: Catalogue) 
     assert made.emissivity == pytest.approx(sum(part.share * part.wall.emissivity for part in made.parts))
 
 
+def test_a_knot_that_no_power_has_changes_no_mixture(catalogue: Catalogue) -> None:
+    """Parts are read off at reflectances between those that are solved, which may all lie below the knot."""
+    settings = BakeSettings(
+        orientations="report10", interpolation="barycentric", lobes=0.0, step=1800.0, slice_interval=43200.0,
+        lead_in_days=1.0, reflectances=(0.1, 0.2, 0.35, 0.5), degree=2, knot=0.6,
+    )  # fmt: skip
+    environment = build_environment(read_weather("fall"), image_day=date(1976, 10, 7), lead_in_days=1.0, step=1800.0)
+    made, ground = catalogue.wall_type(30, "heated"), catalogue.wall_type(93, "none")
+    knotted, plain = (
+        bake_tables(environment, [made], ground=ground, settings=replace(settings, knot=knot)) for knot in (0.6, 0.0)
+    )
+    np.testing.assert_array_equal(knotted.coefficients, plain.coefficients)
+
+
 def test_blocks_of_the_scene_take_the_coverage_of_their_feature(catalogue: Catalogue) -> None:
     scene = load_scene("hospital", level="IA")
     assignment = assign_wall_types(scene, catalogue)

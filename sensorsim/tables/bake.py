@@ -12,7 +12,7 @@ from sensorsim.constants import SECONDS_PER_DAY
 from sensorsim.effects import EVERYTHING, EffectPlan
 from sensorsim.environment import Environment
 from sensorsim.materials import WallType
-from sensorsim.tables.coefficients import ShadeTables, fit_polynomials, reflectance_powers
+from sensorsim.tables.coefficients import UNKNOTTED, ShadeTables, fit_polynomials, reflectance_powers
 from sensorsim.tables.fit import FitFrame, FittedWall, Powers, fit_frame, fit_lobes, fit_plain
 from sensorsim.tables.history import make_ready, wall_history
 from sensorsim.tables.lobes import Lobes, LobeSources, facing_lobes, lobe_sources, lobe_weights
@@ -107,7 +107,7 @@ class _Bake:
         """Reflectances that are solved of a wall type, and the powers that are fitted to them."""
         reflectances = self.scope.reflectances_of(self.wall_types, wall)
         degree = min(self.degree, reflectances.size - 1)
-        return Powers(reflectances, degree, self.settings.knot if degree == self.degree else 0.0)
+        return Powers(reflectances, degree, self.settings.knot if degree == self.degree >= UNKNOTTED else 0.0)
 
     def cost(self, wall: WallType) -> tuple[bool, float]:
         """By which plain wall types are sorted so that no thread is left with a dear one at the end."""

@@ -35,7 +35,7 @@ class Moment:
     level: FloatArray  # (w,) that they are above [K]; 0 without lobes
     loss: FloatArray  # (w, 5) by which values are bent back, see `straighten`
     towards: FloatArray  # (2,) where the wind comes from, east and north
-    knot: float  # reflectance at which the last power begins
+    knot: float  # reflectance at which the last of four or more powers begins
     direction: FloatArray  # (l, 3) of the lobes
     weight: FloatArray  # (w, l, 2) of the lobes, powers 0 and 1 of the reflectance [K]
     gain: FloatArray  # (w, 5) of the lobes by where a surface faces, see `lobe_gain`

@@ -54,7 +54,7 @@ class Powers(NamedTuple):
 
     reflectances: FloatArray  # (r,) that were solved
     degree: int
-    knot: float  # at which the last power begins
+    knot: float  # at which the last of four or more powers begins, else 0
 
 
 def fit_frame(environment: Environment, record: IntArray, orientations: str, facing: FloatArray) -> FitFrame:

@@ -1,8 +1,9 @@
 """Sun lobes: the direct sun of the last hours, which acts on a wall all but linearly, told apart from all the rest.
 
-A lobe is a direction d_k of the sun and a weight w_k [K]: a surface of normal n and absorptance a is warmer by
-a w_k max(0, n . d_k) for the sun that stood there. The lobes end where the sun sets on the surface, as the sun itself
-does, so that what is left to the standard orientations has no such edge. Light is that of
+A lobe is a direction d_k of the sun and a weight w_k [K]: a surface of normal n and absorptance a is warmer by a w_k
+max(0, n . d_k) for the sun that stood there, in the variable of `straighten` and times a gain that goes by n. Tables
+keep what goes with a as powers 0 and 1 of the reflectance. The lobes end where the sun sets on the surface, as the sun
+itself does, so that what is left to the standard orientations has no such edge. Light is that of
 `heat_balance.directional_irradiance`.
 
 The first lobe is the sun of the moment and moves with it. The others stand where the sun is at certain clock times of

@@ -1,7 +1,8 @@
 """Shade of any surface from the tables, in NumPy: the twin that the shader is held to.
 
 Section 3.6.2 of [Report1978]: interpolate the coefficients of the standard orientations around the normal, evaluate
-the polynomial at the surface's reflectance. Tables with lobes add the sun's, each as far as the surface saw it.
+the polynomial at the surface's reflectance. Tables with lobes add the sun's, each as far as the surface saw it, and
+bend the sum back to a temperature (see `straighten`).
 """
 
 import numpy as np

@@ -15,7 +15,7 @@ def sun_response(
 ) -> FloatArray:  # fmt: skip
     """Rise (t, m) [K] of a plain wall type, black to the sun, by light (s, m) [W m-2] from sample `first` on.
 
-    Linear about its course (t, o) [K] at the samples `record` (t,) under what acts `outside`, meant over all
+    Linear about its course (t, o) [K] at the samples `record` (t,) under what acts `outside`, averaged over all
     orientations; before the first of them as at the same clock time later.
     """
     cover = ready.wall.cover

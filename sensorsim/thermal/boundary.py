@@ -1,7 +1,7 @@
 """What the march takes in: a wall's factored linear part, its boundary conditions on both faces, its state.
 
 Named tuples, because compiled code takes them as they are. Films join forced and free convection by their cubes,
-h = (forced^3 + free |dT|)^(1/3) [Churchill1977]; the march takes one Newton step of the cube root along with each step
+h = (forced^3 + free |dT|)^(1/3) [Churchill1977]; the march takes one step of its inverse along with each Newton step
 of the face temperatures. Its state is in degrees Celsius, so that a metal skin's conductance of 1e6 W m-2 K-1
 multiplies the rounding errors of 20 and not of 300.
 """
@@ -92,8 +92,10 @@ class Columns(NamedTuple):
     """State of all columns, updated in place."""
 
     cells: FloatArray  # (n, m) [C]
-    carried: FloatArray  # (10, m) by pairs of the exterior and the interior face, see the properties
-    absorptance: FloatArray  # (a,); the columns of each stand together, orientation by orientation
+    # (10, m) by pairs of the exterior and the interior face: temperatures [C], inverse total films [W-1 m2 K], heat
+    # entered [J m-2], what temperatures rose in the last step and in the one before [K], by which the next is guessed
+    carried: FloatArray
+    absorptance: FloatArray  # (a,) [-]; the columns of each stand together, orientation by orientation
 
     @property
     def faces(self) -> FloatArray:
@@ -101,19 +103,9 @@ class Columns(NamedTuple):
         return self.carried[0:2]
 
     @property
-    def per_film(self) -> FloatArray:
-        """Inverse of the total films (2, m) [W-1 m2 K]."""
-        return self.carried[2:4]
-
-    @property
     def heat(self) -> FloatArray:
         """Heat (2, m) that has entered through each face [J m-2]."""
         return self.carried[4:6]
-
-    @property
-    def rise(self) -> FloatArray:
-        """What the faces' temperatures rose in the last two steps (4, m) [K], by which the next one's are guessed."""
-        return self.carried[6:10]
 
 
 class Trace(NamedTuple):

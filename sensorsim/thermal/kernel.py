@@ -1,4 +1,4 @@
-"""The inner loop, compiled: steps of many columns through one wall, in blocks of one lane each.
+"""The inner loop, compiled: steps of many columns through one wall, in blocks with a lane for each.
 
 A column is one orientation at one solar absorptance. A stage solves (C / (gamma dt) + K) T = rhs for the cells, linear
 and alike for all columns, condensed onto the faces, whose balances are not linear (see `balance`).

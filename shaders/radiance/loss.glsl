@@ -4,7 +4,8 @@
 
 const int NEWTON_STEPS = 5;
 
-// Cube of the free film of a face whose warm or cold air rises by its cosine to the vertical, over a vertical one's.
+// Cube of the free film of a face whose warm or cold air rises by its cosine to the vertical, over a vertical one's
+// [Walton1983 eq. 89 and 90].
 Ratio tilt_term(Ratio rising) {
     float tilt = abs(rising);
     float more = rising >= 0.0 ? 7.238 / (7.238 - tilt) : 1.382 / (1.382 + tilt);

@@ -1,7 +1,7 @@
 #version 330 core
 // Provides: band radiance where no surface is: the sky by its elevation, and below the horizon the infinite ground
-// plane of [Report1978] section 3.1.3 through its air path. In reflective bands the sky glows around the sun [ISO15469];
-// in thermal ones the tables of that are zero.
+// plane of [Report1978] section 3.1.3 through its air path. In reflective bands the sky glows around the sun
+// [ISO15469]; in thermal ones the tables of that are zero.
 // PATH 1: with the air in between, 0: without.
 #include "common/quantities.glsl"
 #include "generated/view_frame_block.glsl"
