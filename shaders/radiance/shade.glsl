@@ -1,5 +1,6 @@
 // Provides surface_temperature() [K]: coefficients of three standard orientations interpolated, polynomial evaluated,
-// whose last power may begin at a knot, the sun's lobes added where the tables have any. [Report1978] section 3.6.2. Twin: sensorsim.tables.shade.
+// whose last power may begin at a knot, the sun's lobes added where the tables have any. [Report1978] section 3.6.2.
+// Twin: sensorsim.tables.shade.
 #include "common/quantities.glsl"
 #include "generated/coefficients.glsl"
 #include "radiance/lobes.glsl"
