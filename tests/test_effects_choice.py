@@ -12,6 +12,7 @@ from sensorsim.cli import main
 from sensorsim.effects import (
     EFFECTS,
     NOT_MODELLED,
+    SURFACE,
     Bound,
     Effect,
     EffectChoice,
@@ -20,6 +21,7 @@ from sensorsim.effects import (
     decide,
     read_choice,
 )
+from sensorsim.effects.costs import OF_WALLS, PER_PIXEL
 from sensorsim.errors import InputError
 
 AT = "1976-02-07T10:00"
@@ -197,3 +199,10 @@ def test_effects_prints_a_table(
     run(monkeypatch, "effects", write_town(tmp_path, town_features()), "--at", AT, "--preset", "report")
     told = capsys.readouterr().out
     assert all(word in told for word in ("direct_sun", "tolerance", "none in the history", "Not modelled at all"))
+
+
+def test_costs_are_told_of_effects_that_there_are() -> None:
+    """A name that no effect has would cost nothing, and nobody would know."""
+    of_surfaces = {effect.name for effect in EFFECTS if effect.stage == SURFACE}
+    assert of_surfaces >= OF_WALLS
+    assert {effect.name for effect in EFFECTS} - of_surfaces >= PER_PIXEL.keys()

@@ -96,7 +96,7 @@ def test_choices_of_effects_build_no_program_that_plans_do_not_know(
     sensor = load_sensor(name)
     world = town(tmp_path, sensor)
     left = [effect.name for effect in EFFECTS if effect.stage == FRAME and effect.mode in (None, sensor.mode)]
-    for text in ("none", *(f"all,-{one}" for one in left if not sensor_free(one))):
+    for text in ("none", *(f"all,-{one}" for one in left if not is_of_a_detector(one))):
         choice = read_choice(f"{text},+temperature" if name == "flir" else text)
         with Renderer(replace(world, choice=choice), sensor, size=SIZE) as renderer:
             renderer.render(ACROSS, 36000.0, solids=cart())
@@ -105,7 +105,7 @@ def test_choices_of_effects_build_no_program_that_plans_do_not_know(
         assert sum(key[1] == f"scene/{stage}.frag" for key in built) <= most
 
 
-def sensor_free(effect: str) -> bool:
+def is_of_a_detector(effect: str) -> bool:
     """Whether an effect is one of a detector's chain, which these sensors do not have."""
     return {one.name: one.part for one in EFFECTS}[effect]
 

@@ -46,6 +46,7 @@ def test_few_reflectances_are_solved_themselves_and_pass_through_the_solve(tmp_p
     """Expected: what tables of one reflectance alone have there, to single precision."""
     survey = surveyed(tmp_path, "all,-spare_reflectances")
     lean, own = shown(survey, baked(survey)), survey.assignment
+    assert set(survey.scope.reflectances) != {FIVE.reflectances}
     for row, held in enumerate(survey.scope.reflectances):
         surface = np.flatnonzero(own.wall_type == row)
         if held == FIVE.reflectances:

@@ -18,7 +18,7 @@ from sensorsim.environment import SUN_RADIUS, SkyGlow
 from sensorsim.materials.facets import lobe_spread
 
 LEAST_COSINE = 1e-4  # of the angle to the eye, as in the shader
-DISC_VARIANCE = 0.25 * SUN_RADIUS**2
+DISC_VARIANCE = 0.25 * SUN_RADIUS**2  # [-] added to that of slopes: a flat mirror shows the light as bright as its disc
 BEYOND = 1e30  # [-] density of facets that shows the disc itself, whatever the rest
 LOBE_REACH = np.radians(3.0)  # of its half width [rad deg-1], to which the mirrors' tables are blurred
 COARSER = 4  # entries of the indicatrix to two of the mirrors' tables, and a step

@@ -122,7 +122,7 @@ def film_bound(situation: Situation) -> Bound:
 def reflectance_bound(situation: Situation, misses: Sequence[float]) -> float:
     """Most kelvin between faces as polynomials in reflectance have them and as they are.
 
-    `misses` [-]: how far in reflectance the polynomial of each face reaches, times which the light is absorbed or not.
+    `misses` [-]: how far in reflectance the polynomial of each face reaches; that share of its light may be amiss.
     """
     found = [0.0]
     for case, miss in zip(_cases(situation)[1:], misses, strict=True):

@@ -6,13 +6,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from sensorsim.environment import SUN_RADIUS
+from sensorsim.effects.glint import DISC_VARIANCE, LEAST_COSINE
 
 Array = NDArray[Any]
 _NONE, _ONE = np.float32(0.0), np.float32(1.0)
-_DISC = 0.25 * SUN_RADIUS**2
-_LEAST_COSINE = 1e-4
-_BRIGHTEST = 0.25 / (np.pi * _DISC)  # [sr-1] the disc itself, over its irradiance
+_BRIGHTEST = 0.25 / (np.pi * DISC_VARIANCE)  # [sr-1] the disc itself, over its irradiance
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -50,7 +48,7 @@ def glossy(
         above, ahead = np.float32(0.5 + 0.5 * high), np.float32(0.5 + 0.5 * lean)
         sky = between(mirror[kind], above)
         sky += between(mirror[kinds + kind], above) * between(mirror[2 * kinds + kind], ahead)
-        out = max(cosine, _LEAST_COSINE)
+        out = max(cosine, LEAST_COSINE)
         share = between(whole, np.float32(out))
         source[x] = (sent[1] + (_ONE - sent[1]) * share) * sky + sent[0] * (_ONE - share)
         if lit:
@@ -73,7 +71,7 @@ def _facing_facets(
         side = sun[k] - eye[k] - (facing - cosine) * plane[k]
         tilt, across, in_plane = tilt + slope * slope, across + side * side, in_plane + slope * side
     in_plane = in_plane * in_plane / max(across, 1e-12)
-    wide, broad = variance + _DISC, variance + _DISC / (incidence * incidence)
+    wide, broad = variance + DISC_VARIANCE, variance + DISC_VARIANCE / (incidence * incidence)
     density = np.exp(-in_plane / wide - max(tilt - in_plane, 0.0) / broad) / np.sqrt(wide * broad)
     mirrored = facet + (1.0 - facet) * between(rise, np.float32(incidence))
     return density / (np.pi * upright**4), mirrored

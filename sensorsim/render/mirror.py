@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from sensorsim.environment import SUN_RADIUS, SkyGlow
+from sensorsim.effects.glint import DISC_VARIANCE
+from sensorsim.environment import SkyGlow
 from sensorsim.materials.facets import ANGLE_ENTRIES, facets, lobe_spread
 from sensorsim.materials.gloss import load_gloss
 
@@ -62,7 +63,7 @@ def mirror_glsl() -> str:
     """Sizes of the tables for the shader, and what the sun's disc adds to the variance of slopes along its image."""
     return (
         f"const int ANGLE_ENTRIES = {ANGLE_ENTRIES};\nconst int MIRROR_ENTRIES = {MIRROR_ENTRIES};\n"
-        f"const int GLOSS_KINDS = {len(load_gloss())};\nconst float DISC_VARIANCE = {0.25 * SUN_RADIUS**2};\n"
+        f"const int GLOSS_KINDS = {len(load_gloss())};\nconst float DISC_VARIANCE = {DISC_VARIANCE};\n"
     )
 
 

@@ -86,7 +86,7 @@ class QuickLight:
 
 
 def _air_terms(illumination: Illumination, camera: Camera, most: float) -> tuple[Single, NDArray[np.float64]]:
-    """Terms (k, 7) of the air for rises of `most` [m], none of none; direction of the sun with the asymmetry (4,)."""
+    """Terms (k, 7) of air for rises of `most` [m], none without air; the sun's direction and the asymmetry (4,)."""
     if illumination.air is clear_path():
         return np.zeros((0, 7), np.float32), np.append(illumination.sun_direction, 0.0)
     height = float(camera.position[2])

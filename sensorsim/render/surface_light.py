@@ -75,7 +75,7 @@ class SurfaceLight:
 def of_solids(
     solids: Solids, around: Illumination, band_table: BandTable | None, plan: EffectPlan = EVERYTHING
 ) -> FloatArray:
-    """Radiance that the triangles of solids send (t,), all of them matt."""
+    """Radiance (t,) [W m-2 sr-1] that the triangles of solids send, all of them matt."""
     if band_table is None:
         return reflected(around, solids.reflectance, solids.normal, solids.quarters)
     black = band_table.radiance_at(solids.temperature)
