@@ -12,7 +12,7 @@ from sensorsim.study.accuracy_trials import Trial
 from sensorsim.tables import BakeSettings, orientation_set
 from sensorsim.tables.orientations import FloatArray, IntArray
 
-MOST_WORK = 3e7  # columns times steps that a preset or a combination may march, half a minute of one processor
+MOST_WORK = 4e7  # columns times steps that a preset or a combination may march: the standard's catalogue on four days
 USUAL_LEAD_IN = 2.0  # [days] that walls of their own lead-in take on the mean
 FACTOR_WALLS = 6  # wall types that one knob's turns are measured on
 
