@@ -14,9 +14,9 @@ from sensorsim.tables import bake_tables, orientation_set, surface_temperature
 from sensorsim.tables.fit import fit_gain, nearby_slices
 from sensorsim.tables.lobes import gain_terms, lobe_gain, lobe_sources, lobe_weights
 from sensorsim.tables.spline import roughness, spline_matrix
-from sensorsim.tables.straighten import UNBENT, Films, bend_back, fit_loss, straighten, tilt_terms, wind_share
+from sensorsim.tables.straighten import UNBENT, Films, bend_back, fit_loss, straighten, tilt_terms
 from sensorsim.thermal import build_grid
-from sensorsim.thermal.convection import free_film_cubed, windward_share
+from sensorsim.thermal.convection import free_film_cubed, wind_share, windward_share
 from sensorsim.thermal.heat_balance import directional_irradiance
 from sensorsim.thermal.linear_response import linear_response
 

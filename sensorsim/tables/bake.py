@@ -21,10 +21,10 @@ from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.scope import Scope, plain_walls, wants_lobes, whole_scope
 from sensorsim.tables.settings import BakeSettings
 from sensorsim.tables.slices import kept_samples
-from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films, wind_towards
+from sensorsim.tables.straighten import COLUMNS, UNBENT, Films, films_of, mix_films
 from sensorsim.tables.sun_response import sun_response
 from sensorsim.thermal.boundary import Outside, outside_at
-from sensorsim.thermal.convection import MOWITT
+from sensorsim.thermal.convection import MOWITT, wind_towards
 from sensorsim.thermal.ground import ground_temperature
 from sensorsim.thermal.heat_balance import Exposure, expose, outside_of
 from sensorsim.thermal.lead_in import LeadIn, lead_in_of, longest
@@ -215,7 +215,7 @@ def _prepare(
         wall_types=tuple(wall_types),
         record=record,
         sources=sources,
-        towards=wind_towards(environment, record),
+        towards=wind_towards(environment.wind_direction[record]),
         frame=None
         if sources is None
         else fit_frame(environment, record, settings.orientations, facing_lobes(sources, scope.solved)),

@@ -19,7 +19,8 @@ from sensorsim.tables.coefficients import fit_polynomials
 from sensorsim.tables.lobes import gain_terms, lobe_gain
 from sensorsim.tables.orientations import FloatArray, IntArray, orientation_set
 from sensorsim.tables.spline import roughness
-from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms, wind_share, wind_towards
+from sensorsim.tables.straighten import UNBENT, Films, Terms, fit_loss, straighten, tilt_terms
+from sensorsim.thermal.convection import wind_share, wind_towards
 
 UNSURE = 0.01  # of a gain's energy that stands for a gain of 1
 DARKER = 1e-3  # least absorptance
@@ -59,7 +60,7 @@ class Powers(NamedTuple):
 
 def fit_frame(environment: Environment, record: IntArray, orientations: str, facing: FloatArray) -> FitFrame:
     """Frame of fits at the samples `record` (t,), with cosines (t, k + 1, o) of a layout's normals to the lobes."""
-    normal, towards = orientation_set(orientations).normal, wind_towards(environment, record)
+    normal, towards = orientation_set(orientations).normal, wind_towards(environment.wind_direction[record])
     return FitFrame(
         orientations=orientations, facing=facing, air=environment.air_temperature[record],
         terms=(wind_share(normal, towards), *tilt_terms(normal)), nearby=nearby_slices(environment.time[record]),

@@ -10,7 +10,8 @@ import numpy as np
 from sensorsim.tables.coefficients import Moment, ShadeTables, reflectance_powers
 from sensorsim.tables.lobes import gain_terms
 from sensorsim.tables.orientations import FloatArray, IntArray
-from sensorsim.tables.straighten import bend_back, tilt_terms, wind_share
+from sensorsim.tables.straighten import bend_back, tilt_terms
+from sensorsim.thermal.convection import wind_share
 
 
 def surface_temperature(

@@ -20,12 +20,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from sensorsim.constants import STEFAN_BOLTZMANN_CONSTANT
-from sensorsim.environment import Environment
 from sensorsim.materials import WallType
 from sensorsim.tables.coefficients import least_squares
 from sensorsim.tables.orientations import FloatArray, IntArray
 from sensorsim.thermal.boundary import Outside
-from sensorsim.thermal.convection import free_film_cubed
+from sensorsim.thermal.convection import free_film_cubed, wind_share
 
 WEAK = 0.3  # [K] curvature of the loss in reflectance below which too little sun tells how much of it there is
 NEWTON_STEPS = 5  # from v, whose slope is about 1
@@ -78,17 +77,6 @@ def tilt_terms(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Cube of the free film (m,) of warmer and of colder faces (m, 3) over that of a vertical one [-]."""
     warmer, colder = (free_film_cubed(normal, warmer=warm) / _VERTICAL for warm in (True, False))
     return warmer, colder
-
-
-def wind_towards(environment: Environment, record: IntArray) -> FloatArray:
-    """Direction (t, 2) east and north, unit, that the wind comes from at the samples `record` (t,)."""
-    angle = np.radians(environment.wind_direction[record])
-    return np.stack([np.sin(angle), np.cos(angle)], axis=1)
-
-
-def wind_share(normal: FloatArray, towards: FloatArray) -> FloatArray:
-    """How far (t, m) faces (m, 3) are turned to the wind from a direction (t, 2) east and north [-]."""
-    return np.asarray(np.clip(0.5 * (1.0 + towards @ normal[:, :2].T + np.abs(normal[:, 2])), 0.0, 1.0))
 
 
 def fit_loss(

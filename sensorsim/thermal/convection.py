@@ -96,8 +96,17 @@ def forced_film(
 
 def windward_share(normal: FloatArray, wind_direction: FloatArray) -> FloatArray:
     """How far (t, o) surfaces (o, 3) face the wind that blows from (t,) [deg]: 1 into it or level, 0 a lee wall."""
+    return wind_share(normal, wind_towards(wind_direction))
+
+
+def wind_towards(wind_direction: FloatArray) -> FloatArray:
+    """Unit vectors (t, 2) east and north to where the wind comes from, at directions (t,) [deg]."""
     angle = np.radians(wind_direction)
-    towards = np.stack([np.sin(angle), np.cos(angle)], axis=-1)
+    return np.stack([np.sin(angle), np.cos(angle)], axis=-1)
+
+
+def wind_share(normal: FloatArray, towards: FloatArray) -> FloatArray:
+    """As `windward_share`, of unit vectors (t, 2) to where the wind comes from, or means of such."""
     return np.asarray(np.clip(0.5 * (1.0 + towards @ normal[:, :2].T + np.abs(normal[:, 2])), 0.0, 1.0))
 
 
